@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+
+namespace rayshoot {
+
+/// What one query did, or many summed. All counts are exact and deterministic.
+struct Work {
+  std::uint64_t rays = 0;
+  std::uint64_t object_tests = 0;      ///< ray-object tests, repeated ones included
+  std::uint64_t distinct_objects = 0;  ///< objects tested at least once, summed over rays: Card(A(r, s))
+  std::uint64_t volume_tests = 0;      ///< ray-bounding-volume tests
+  std::uint64_t steps = 0;             ///< traversal steps from one cell or node to another
+  std::uint64_t cells = 0;             ///< leaf cells visited
+  std::uint64_t empty_cells = 0;       ///< of these, cells without objects
+  std::uint64_t mailbox_hits = 0;      ///< tests avoided because the ray had met the object before
+
+  Work& operator+=(const Work& other);
+  friend bool operator==(const Work&, const Work&) = default;
+};
+
+inline Work& Work::operator+=(const Work& other) {
+  rays += other.rays, object_tests += other.object_tests, distinct_objects += other.distinct_objects;
+  volume_tests += other.volume_tests, steps += other.steps, cells += other.cells;
+  empty_cells += other.empty_cells, mailbox_hits += other.mailbox_hits;
+  return *this;
+}
+
+/// Counting policy of a counted traversal. Object tests are counted where they are made, in the queries.
+class Count {
+ public:
+  explicit Count(Work& work) : work_(work) {}
+  void volume_tests(std::uint64_t count = 1) const { work_.volume_tests += count; }
+  void step() const { ++work_.steps; }
+  void cell(bool empty) const { ++work_.cells, work_.empty_cells += empty; }
+  void mailbox_hit() const { ++work_.mailbox_hits; }
+
+ private:
+  Work& work_;
+};
+
+/// Counting policy of a timed traversal: not one instruction.
+struct NoCount {
+  static constexpr void volume_tests(std::uint64_t = 1) {}
+  static constexpr void step() {}
+  static constexpr void cell(bool) {}
+  static constexpr void mailbox_hit() {}
+};
+
+}  // namespace rayshoot

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <algorithm>
+
+#include "accel/core/engine.h"
+#include "accel/core/queries.h"
+
+namespace rayshoot {
+
+/// A technique that lays its objects out in an order of its own.
+template <class A>
+concept OrdersObjects = requires(const A a) {
+  { a.order() } -> std::convertible_to<std::span<const std::uint32_t>>;
+};
+
+/// A technique for which equation (3) predicts the cost.
+template <class A>
+concept PredictsCost = requires(const A a) {
+  { a.predicted() } -> std::same_as<Prediction<typename A::Scalar>>;
+};
+
+/// Derives the batch interface of an engine from a technique's `visit`.
+template <Technique A>
+class TechniqueEngine final : public Engine<typename A::Scalar> {
+ public:
+  using Real = typename A::Scalar;
+
+  explicit TechniqueEngine(const EngineInput<Real>& input)
+      : technique_(A::build({input.geometry}, A::configure(input.arguments))), geometry_(&input.geometry) {
+    if constexpr (OrdersObjects<A>) {
+      arranged_.emplace(geometry_->arranged(technique_.order()));
+      geometry_ = &*arranged_;
+    }
+  }
+
+  std::unique_ptr<EngineScratch> scratch() const override { return std::make_unique<Scratch>(technique_.scratch()); }
+
+  void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits, EngineScratch& scratch) const override {
+    with_test([&](const auto& test) {
+      auto& own = static_cast<Scratch&>(scratch).technique;
+      for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest_hit(technique_, test, name(), rays[i], own);
+    });
+  }
+
+  void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked, EngineScratch& scratch) const override {
+    with_test([&](const auto& test) {
+      auto& own = static_cast<Scratch&>(scratch).technique;
+      for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = any_hit(technique_, test, name(), rays[i], own);
+    });
+  }
+
+  CountedWork count(Query query, std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
+                    EngineScratch& scratch) const override {
+    CountedWork sum;
+    auto& own = static_cast<Scratch&>(scratch);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      Work work;
+      hits[i] = counted_query(query, rays[i], own, work);
+      work.distinct_objects = count_distinct(own.candidates);
+      const auto square = [](std::uint64_t n) { return static_cast<double>(n) * static_cast<double>(n); };
+      sum += {work, square(work.distinct_objects), square(work.object_tests), square(work.volume_tests)};
+    }
+    return sum;
+  }
+
+  std::vector<std::uint32_t> candidates(Query query, const Ray<Real>& ray, EngineScratch& scratch) const override {
+    auto& own = static_cast<Scratch&>(scratch);
+    Work work;
+    counted_query(query, ray, own, work);
+    std::vector<std::uint32_t> objects(own.candidates.size());
+    std::transform(own.candidates.begin(), own.candidates.end(), objects.begin(), name());
+    std::sort(objects.begin(), objects.end());
+    objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+    return objects;
+  }
+
+  StructureStats structure() const override { return technique_.structure(); }
+
+  std::optional<Prediction<Real>> predicted() const override {
+    if constexpr (PredictsCost<A>) return technique_.predicted();
+    else return std::nullopt;
+  }
+
+ private:
+  struct Scratch final : EngineScratch {
+    explicit Scratch(typename A::Scratch own) : technique(std::move(own)) {}
+    typename A::Scratch technique;
+    std::vector<std::uint32_t> candidates;
+  };
+
+  Naming name() const {
+    if constexpr (OrdersObjects<A>) return {technique_.order().data()};
+    else return {};
+  }
+
+  /// Call `function` with the cheapest ray-object test that serves the scene's kinds of objects.
+  template <class Function>
+  void with_test(const Function& function) const {
+    if (geometry_->triangles_only()) function(ObjectTest<Real, true>{*geometry_});
+    else function(ObjectTest<Real, false>{*geometry_});
+  }
+
+  Hit<Real> counted_query(Query query, const Ray<Real>& ray, Scratch& scratch, Work& work) const {
+    using Test = ObjectTest<Real, false>;
+    const Test test{*geometry_};
+    if (query == Query::closest) {
+      ClosestLeaf<Real, Test> leaf(test, name(), ray);
+      counted_visit(technique_, ray, scratch.technique, work, leaf, scratch.candidates);
+      return leaf.hit();
+    }
+    if (query == Query::any) {
+      AnyLeaf<Real, Test> leaf(test, name(), ray);
+      counted_visit(technique_, ray, scratch.technique, work, leaf, scratch.candidates);
+      return leaf.blocked() ? Hit<Real>{0, 0} : Hit<Real>{};
+    }
+    StrictLeaf<Real, Test> leaf(test, name(), ray);
+    counted_visit(technique_, ray, scratch.technique, work, leaf, scratch.candidates);
+    return {};
+  }
+
+  /// Number of different values in `candidates`, which is sorted on the way.
+  static std::uint64_t count_distinct(std::vector<std::uint32_t>& candidates) {
+    std::sort(candidates.begin(), candidates.end());
+    return static_cast<std::uint64_t>(std::unique(candidates.begin(), candidates.end()) - candidates.begin());
+  }
+
+  A technique_;
+  std::optional<Geometry<Real>> arranged_;
+  const Geometry<Real>* geometry_;
+};
+
+/// The registry entry of a technique written as a template over the scalar.
+template <template <class> class A>
+TechniqueEntry define_technique() {
+  return {.info = A<float>::info(),
+          .build_float = [](const EngineInput<float>& input) -> std::unique_ptr<Engine<float>> {
+            return std::make_unique<TechniqueEngine<A<float>>>(input);
+          },
+          .build_double = [](const EngineInput<double>& input) -> std::unique_ptr<Engine<double>> {
+            return std::make_unique<TechniqueEngine<A<double>>>(input);
+          }};
+}
+
+/// Registers the technique `TYPE<Real>` of the file `ID.cpp`.
+#define RAYSHOOT_TECHNIQUE(ID, TYPE)                             \
+  const TechniqueEntry& technique_##ID() {                       \
+    static const TechniqueEntry entry = define_technique<TYPE>(); \
+    return entry;                                                \
+  }
+
+}  // namespace rayshoot

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <vector>
+
+#include "accel/core/technique.h"
+
+namespace rayshoot {
+
+/// The objects in the order in which a technique hands them out. `TrianglesOnly` leaves out all other kinds.
+template <class Real, bool TrianglesOnly>
+struct ObjectTest {
+  const Geometry<Real>& geometry;
+
+  Real operator()(std::uint32_t position, const Ray<Real>& ray) const {
+    if constexpr (TrianglesOnly) return geometry.triangle_hit_distance(position, ray);
+    else return geometry.hit_distance(position, ray);
+  }
+};
+
+/// Which object stands at a position of the technique's own order; the identity where it has none.
+struct Naming {
+  const std::uint32_t* order = nullptr;
+  std::uint32_t operator()(std::uint32_t position) const { return order ? order[position] : position; }
+};
+
+/// Leaf of the closest-hit query: keeps the nearest hit, of equal distances the lowest object.
+template <class Real, class Test>
+class ClosestLeaf {
+ public:
+  ClosestLeaf(const Test& test, Naming name, const Ray<Real>& ray) : test_(test), name_(name), ray_(ray) {}
+
+  bool operator()(std::uint32_t position) {
+    const Real t = test_(position, ray_);
+    if (t <= ray_.t_max) keep(t, name_(position));
+    return false;
+  }
+  Real reach() const { return ray_.t_max; }
+  const Hit<Real>& hit() const { return hit_; }
+
+ private:
+  void keep(Real t, std::uint32_t object) {
+    if (t == hit_.t && object > hit_.object) return;
+    hit_ = {t, object};
+    ray_.t_max = t;
+  }
+
+  const Test& test_;
+  Naming name_;
+  Ray<Real> ray_;
+  Hit<Real> hit_;
+};
+
+/// Leaf of the any-hit query: ends the visit at the first hit.
+template <class Real, class Test>
+class AnyLeaf {
+ public:
+  AnyLeaf(const Test& test, Naming, const Ray<Real>& ray) : test_(test), ray_(ray) {}
+
+  bool operator()(std::uint32_t position) { return blocked_ = test_(position, ray_) <= ray_.t_max; }
+  Real reach() const { return ray_.t_max; }
+  bool blocked() const { return blocked_; }
+
+ private:
+  const Test& test_;
+  const Ray<Real>& ray_;
+  bool blocked_ = false;
+};
+
+/// Leaf of the strict optimizer: never stops and never shortens the ray, so every cell on it is visited.
+template <class Real, class Test>
+class StrictLeaf {
+ public:
+  StrictLeaf(const Test&, Naming, const Ray<Real>& ray) : reach_(ray.t_max) {}
+
+  bool operator()(std::uint32_t) { return false; }
+  Real reach() const { return reach_; }
+
+ private:
+  Real reach_;
+};
+
+/// Wraps another leaf and records the position of every candidate it is given, repetitions included.
+template <class Inner>
+class RecordingLeaf {
+ public:
+  RecordingLeaf(Inner& inner, std::vector<std::uint32_t>& candidates) : inner_(inner), candidates_(candidates) {}
+
+  bool operator()(std::uint32_t position) {
+    candidates_.push_back(position);
+    return inner_(position);
+  }
+  auto reach() const { return inner_.reach(); }
+
+ private:
+  Inner& inner_;
+  std::vector<std::uint32_t>& candidates_;
+};
+
+/// The nearest hit of a ray.
+template <Technique A, class Real, class Test>
+Hit<Real> closest_hit(const A& technique, const Test& test, Naming name, const Ray<Real>& ray,
+                      typename A::Scratch& scratch) {
+  ClosestLeaf<Real, Test> leaf(test, name, ray);
+  technique.visit(ray, scratch, NoCount{}, leaf);
+  return leaf.hit();
+}
+
+/// Whether a ray meets anything.
+template <Technique A, class Real, class Test>
+bool any_hit(const A& technique, const Test& test, Naming name, const Ray<Real>& ray,
+             typename A::Scratch& scratch) {
+  AnyLeaf<Real, Test> leaf(test, name, ray);
+  technique.visit(ray, scratch, NoCount{}, leaf);
+  return leaf.blocked();
+}
+
+/// Visit with `leaf`, counting all work but distinct objects, and leave every candidate in `candidates`:
+/// Revelles' optimizer A(r, s) with a ClosestLeaf, the strict optimizer with a StrictLeaf.
+template <Technique A, class Real, class Inner>
+void counted_visit(const A& technique, const Ray<Real>& ray, typename A::Scratch& scratch, Work& work, Inner& leaf,
+                   std::vector<std::uint32_t>& candidates) {
+  candidates.clear();
+  RecordingLeaf<Inner> recorder(leaf, candidates);
+  technique.visit(ray, scratch, Count(work), recorder);
+  ++work.rays;
+  work.object_tests += candidates.size();
+}
+
+}  // namespace rayshoot

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "accel/core/counters.h"
+#include "scenes/core/geometry.h"
+#include "scenes/core/spec.h"
+
+namespace rayshoot {
+
+/// What a technique is, as listed.
+struct TechniqueInfo {
+  std::string id;
+  std::string title;
+  /// Folder of the technique: a section of the survey.
+  std::string family;
+  /// Section of Arvo and Kirk's survey.
+  std::string survey_section;
+  std::string paper;
+  std::vector<Parameter> parameters;
+  /// Beyond this many objects a query is out of reach and the technique is left out of suites.
+  std::uint64_t max_practical_objects = UINT64_MAX;
+  /// It replays known hits instead of searching for them.
+  bool needs_recorded_hits = false;
+  /// Its ray-object test is its own, so its hits may differ from the harness's in the last digits.
+  bool own_object_test = false;
+  /// It is a point of comparison, not a technique of the papers.
+  bool baseline = false;
+};
+
+/// What a technique is built from. The geometry outlives the technique.
+template <class Real>
+struct BuildInput {
+  const Geometry<Real>& geometry;
+};
+
+/// Size and shape of what was built.
+struct StructureStats {
+  std::uint64_t nodes = 0;         ///< all nodes or cells, leaves included
+  std::uint64_t leaves = 0;        ///< cells or nodes that hold objects directly, or nothing
+  std::uint64_t empty_leaves = 0;  ///< of these, those without objects
+  std::uint64_t references = 0;    ///< object references in leaves
+  std::uint64_t max_depth = 0;     ///< of the root: 0
+  std::uint64_t bytes = 0;         ///< memory of the structure, without the objects themselves
+};
+
+/// Equation (3): expected tests per ray that hits the root volume, occlusion neglected, and that volume.
+template <class Real>
+struct Prediction {
+  double object_tests = 0;
+  double volume_tests = 0;
+  Box<Real> root;
+};
+
+/// A leaf is what a query hands to `visit`: it tests the objects it is given and remembers the outcome.
+///   leaf(object)  tests one candidate; true when the query is answered and the visit must end
+///   leaf.reach()  the distance beyond which nothing matters any more; a hit at exactly that distance still does
+template <class L, class Real>
+concept Leaf = requires(L leaf, std::uint32_t object) {
+  { leaf(object) } -> std::same_as<bool>;
+  { leaf.reach() } -> std::convertible_to<Real>;
+};
+
+/// The leaf that the concept below is checked with.
+template <class Real>
+struct ArchetypeLeaf {
+  bool operator()(std::uint32_t) { return false; }
+  Real reach() const { return 0; }
+};
+
+/// A technique is built once and then visits candidates, near to far where it can. Everything else is derived
+/// from `visit` (accel/core/queries.h). A technique is immutable; what a query changes lives in its Scratch.
+///
+/// A technique may also define
+///   std::span<const std::uint32_t> order() const   to give the leaf positions in that permutation of the
+///       objects instead of objects; the objects are then laid out in memory in that order;
+///   Prediction<Real> predicted() const             to state what equation (3) expects.
+template <class A>
+concept Technique = requires(const A a, typename A::Scratch scratch, BuildInput<typename A::Scalar> in,
+                             Ray<typename A::Scalar> ray, NoCount none, Count count,
+                             ArchetypeLeaf<typename A::Scalar> leaf, const Arguments& arguments) {
+  { A::info() } -> std::same_as<TechniqueInfo>;
+  { A::configure(arguments) } -> std::same_as<typename A::Config>;
+  { A::build(in, typename A::Config{}) } -> std::same_as<A>;
+  { a.visit(ray, scratch, none, leaf) };
+  { a.visit(ray, scratch, count, leaf) };
+  { a.structure() } -> std::same_as<StructureStats>;
+  { a.scratch() } -> std::same_as<typename A::Scratch>;
+};
+
+}  // namespace rayshoot

@@ -1,0 +1,177 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// The report: everything a run found out, raw. Field names are the JSON members of
+/// results/schema/report.schema.json, units are in the names, and what was not measured is absent.
+namespace rayshoot::report {
+
+inline constexpr int kSchemaVersion = 1;
+
+struct Run {
+  std::string id;
+  std::string command;
+  std::string started_utc;
+  double seconds = 0;
+  std::string git_commit;
+  bool git_dirty = false;
+  std::uint64_t seed = 1;
+  /// False when the run was interrupted: the report then holds what had finished.
+  bool complete = true;
+};
+
+struct Environment {
+  std::string cpu;
+  int cores = 0;
+  /// Cache sizes by name: "l1d", "l2", "l3".
+  std::map<std::string, std::uint64_t> caches_bytes;
+  std::string governor;
+  double load = 0;
+  std::string os;
+  std::string compiler;
+  std::string flags;
+  std::map<std::string, std::string> packages;
+};
+
+struct LeftOut {
+  std::string what, why;
+};
+
+struct Bounds {
+  std::array<double, 3> min{}, max{};
+};
+
+struct Scene {
+  std::string id;
+  std::string generator;
+  std::optional<std::int64_t> size;
+  std::string form;
+  std::uint64_t objects = 0;
+  /// Objects by kind: "triangle", "polygon", "sphere", "cone".
+  std::map<std::string, std::uint64_t> counts;
+  /// Absent for a scene without objects.
+  std::optional<Bounds> bounds;
+  std::string hash;
+  std::map<std::string, bool> needs;
+  /// Objects that could not be traced, by reason.
+  std::map<std::string, std::uint64_t> set_aside;
+  std::vector<LeftOut> left_out;
+};
+
+struct RaySet {
+  std::string id;
+  std::string scene;
+  std::string distribution;
+  /// Absent where the distribution has no rule set.
+  std::optional<std::string> rules;
+  std::uint64_t rays = 0, closest_rays = 0, any_rays = 0;
+  std::uint64_t primary_rays = 0, primary_hits = 0, shadow_rays = 0, shadow_hits = 0;
+  std::uint64_t reflected_rays = 0, refracted_rays = 0, total_internal_reflections = 0, secondary_hits = 0;
+  std::string hash;
+};
+
+/// ok: every checked ray agrees. wrong: some do not, so there is no time. failed: it could not be built or traced.
+/// graded: an engine with an object test of its own, whose differing rays are counted but do not forbid a time.
+enum class Status { ok, wrong, graded, failed };
+
+struct Verdict {
+  Status status = Status::ok;
+  std::uint64_t checked_rays = 0;
+  std::uint64_t wrong_rays = 0;
+  /// What the answers were compared with: "exhaustive" or the id of a technique verified against it.
+  std::string reference;
+  /// For a failed cell, why.
+  std::optional<std::string> message;
+};
+
+struct Work {
+  std::uint64_t rays = 0, object_tests = 0, distinct_objects = 0, volume_tests = 0, steps = 0, cells = 0,
+                empty_cells = 0, mailbox_hits = 0;
+};
+
+struct Structure {
+  std::uint64_t nodes = 0, leaves = 0, empty_leaves = 0, references = 0, max_depth = 0, bytes = 0;
+};
+
+/// Equation (3), per ray of the set: the expected tests of a ray that hits the root volume times the fraction of
+/// rays that do, and the root volume's own test.
+struct Predicted {
+  double object_tests_per_ray = 0, volume_tests_per_ray = 0;
+};
+
+/// Revelles' M, equation (21), with 95 % confidence intervals.
+struct Efficiency {
+  double m = 0;
+  std::array<double, 2> m_ci95{};
+  double m_strict = 0;
+  std::array<double, 2> m_strict_ci95{};
+};
+
+/// Trace times with a number of threads, one entry a repetition.
+struct ThreadTimes {
+  int threads = 1;
+  std::vector<double> trace_ns;
+};
+
+using ConfigValue = std::variant<bool, std::int64_t, double, std::string>;
+
+struct Measurement {
+  std::string scene;
+  std::string rays;
+  std::string technique;
+  std::map<std::string, ConfigValue> config;
+  std::string scalar;
+  /// "closest", "any", or "closest+any" where the ray set asks both.
+  std::string query;
+  Verdict verdict;
+  std::optional<Work> work;
+  /// Work of the strict optimizer on the same rays.
+  std::optional<Work> strict_work;
+  std::optional<Structure> structure;
+  std::optional<Predicted> predicted;
+  std::optional<Efficiency> efficiency;
+  /// Wall time of each build and of each pass over the whole batch, in nanoseconds.
+  std::vector<double> build_ns, trace_ns;
+  /// Thread scaling, where asked for.
+  std::vector<ThreadTimes> threads;
+};
+
+/// A cell that was planned and not run.
+struct LeftOutCell {
+  std::string scene, rays, technique, scalar, why;
+};
+
+struct Report {
+  Run run;
+  Environment environment;
+  std::vector<Scene> scenes;
+  std::vector<RaySet> ray_sets;
+  std::vector<Measurement> measurements;
+  std::vector<LeftOutCell> left_out;
+};
+
+/// Thrown when a file is not a report; `what()` is one line.
+class ReportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Read a report, upgrading older versions. Throws ReportError on what is not one.
+Report read_report(const std::string& path);
+
+/// Write to a temporary file beside `path`, then rename. Throws ReportError when that fails.
+void write_report(const Report& report, const std::string& path);
+
+/// The JSON text of a report.
+std::string to_json(const Report& report);
+/// The inverse of `to_json`; unknown members are errors.
+Report from_json(const std::string& text);
+
+}  // namespace rayshoot::report

@@ -1,0 +1,172 @@
+#include "scenes/core/geometry.h"
+
+#include "scenes/geometry/overlap.h"
+
+namespace rayshoot {
+
+namespace {
+
+/// Coordinates beyond this would overflow when multiplied with one another.
+template <class Real>
+Real largest_coordinate() {
+  return std::sqrt(std::numeric_limits<Real>::max()) / 4;
+}
+
+/// Why a set of coordinates cannot be traced in `Real`; empty when it can.
+template <class Real>
+std::string unusable(std::initializer_list<Vec3d> points) {
+  for (const Vec3d& point : points) {
+    if (!is_finite(point)) return "not finite";
+    if (!(max_abs(point) <= static_cast<double>(largest_coordinate<Real>()))) return "out of range";
+  }
+  return {};
+}
+
+template <class Real>
+std::string unusable(const Triangle<Real>& triangle) {
+  return double_area_vector(triangle) == Vec3d{} ? "zero area" : "";
+}
+
+template <class Real>
+std::string unusable(const Sphere<Real>& sphere) {
+  return sphere.radius > 0 ? "" : "radius is not positive";
+}
+
+template <class Real>
+std::string unusable(const Cone<Real>& cone) {
+  if (!(cone.base_radius >= 0 && cone.apex_radius >= 0)) return "radius is negative";
+  if (cone.base_radius == 0 && cone.apex_radius == 0) return "zero area";
+  const double height = length(Vec3d(cone.apex) - Vec3d(cone.base));
+  return height > 0 && std::isfinite(1 / height) ? "" : "zero height";
+}
+
+template <class Real>
+Sphere<Real> rounded(const Sphere<double>& sphere) {
+  return {Vec3<Real>(sphere.centre), static_cast<Real>(sphere.radius)};
+}
+
+template <class Real>
+Cone<Real> rounded(const Cone<double>& cone) {
+  return {Vec3<Real>(cone.base), static_cast<Real>(cone.base_radius), Vec3<Real>(cone.apex),
+          static_cast<Real>(cone.apex_radius)};
+}
+
+}  // namespace
+
+template <class Real>
+Geometry<Real>::Geometry(const Scene& scene, ConeSides cone_sides) : cone_sides_(cone_sides) {
+  references_.reserve(scene.objects.size());
+  scene_objects_.reserve(scene.objects.size());
+  triangles_.reserve(scene.triangles.size());
+  for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+    const std::string reason = try_append(scene, object);
+    if (!reason.empty()) set_aside_.push_back({object, reason});
+  }
+  for (std::uint32_t object = 0; object < size(); ++object) bounds_.include(bounds(object));
+}
+
+template <class Real>
+template <class Object>
+void Geometry<Real>::append(ObjectKind kind, std::vector<Object>& objects, const Object& object,
+                            std::uint32_t scene_object) {
+  references_.push_back(static_cast<std::uint32_t>(kind) << kIndexBits | static_cast<std::uint32_t>(objects.size()));
+  scene_objects_.push_back(scene_object);
+  objects.push_back(object);
+}
+
+/// Append one object of the scene unless it is unusable; returns the reason in that case.
+template <class Real>
+std::string Geometry<Real>::try_append(const Scene& scene, std::uint32_t scene_object) {
+  const auto append_if_usable = [&](auto& objects, ObjectKind kind, const auto& object, std::string reason) {
+    if (reason.empty()) reason = unusable(object);
+    if (reason.empty()) append(kind, objects, object, scene_object);
+    return reason;
+  };
+  const SceneObject& entry = scene.objects[scene_object];
+  switch (entry.kind) {
+    case ObjectKind::triangle: {
+      const auto& [a, b, c] = scene.triangles[entry.index];
+      return append_if_usable(triangles_, entry.kind, Triangle<Real>{Vec3<Real>(a), Vec3<Real>(b), Vec3<Real>(c)},
+                              unusable<Real>({a, b, c}));
+    }
+    case ObjectKind::sphere: {
+      const Sphere<double>& sphere = scene.spheres[entry.index];
+      return append_if_usable(spheres_, entry.kind, rounded<Real>(sphere),
+                              unusable<Real>({sphere.centre, {sphere.radius, 0, 0}}));
+    }
+    case ObjectKind::cone: {
+      const Cone<double>& cone = scene.cones[entry.index];
+      return append_if_usable(cones_, entry.kind, rounded<Real>(cone),
+                              unusable<Real>({cone.base, cone.apex, {cone.base_radius, cone.apex_radius, 0}}));
+    }
+    case ObjectKind::polygon: break;
+  }
+
+  const VertexRange& range = scene.polygons[entry.index];
+  const auto first = static_cast<std::uint32_t>(vertices_.size());
+  for (std::uint32_t corner = 0; corner < range.vertex_count; ++corner) {
+    const Vec3d& vertex = scene.polygon_vertices[range.first_vertex + corner];
+    const std::string reason = unusable<Real>({vertex});
+    if (!reason.empty()) {
+      vertices_.resize(first);
+      return reason;
+    }
+    vertices_.push_back(Vec3<Real>(vertex));
+  }
+  if (range.vertex_count < 3) {
+    vertices_.resize(first);
+    return "fewer than 3 vertices";
+  }
+  const Polygon<Real> polygon = make_polygon<Real>({vertices_.data() + first, range.vertex_count}, first);
+  if (polygon.normal == Vec3d{}) {
+    vertices_.resize(first);
+    return "zero area";
+  }
+  append(ObjectKind::polygon, polygons_, polygon, scene_object);
+  return {};
+}
+
+template <class Real>
+bool Geometry<Real>::overlaps(std::uint32_t object, const Box<Real>& box) const {
+  if (!bounds(object).overlaps(box)) return false;
+  switch (kind(object)) {
+    case ObjectKind::triangle: return surface_overlaps(triangle(object), box);
+    case ObjectKind::polygon: return surface_overlaps(polygon(object), polygon_vertices(object), box);
+    case ObjectKind::sphere: return surface_overlaps(sphere(object), box);
+    case ObjectKind::cone: return surface_overlaps(cone(object), box);
+  }
+  return false;
+}
+
+template <class Real>
+std::size_t Geometry<Real>::bytes() const {
+  const auto size_of = [](const auto& objects) { return objects.size() * sizeof(objects[0]); };
+  return size_of(references_) + size_of(scene_objects_) + size_of(triangles_) + size_of(spheres_) + size_of(cones_) +
+         size_of(polygons_) + size_of(vertices_);
+}
+
+template <class Real>
+Geometry<Real> Geometry<Real>::arranged(std::span<const std::uint32_t> order) const {
+  Geometry result;
+  result.vertices_ = vertices_;
+  result.bounds_ = bounds_;
+  result.cone_sides_ = cone_sides_;
+  result.references_.reserve(order.size());
+  result.scene_objects_.reserve(order.size());
+  result.triangles_.reserve(triangles_.size());
+  for (const std::uint32_t object : order) {
+    const std::uint32_t origin = scene_objects_[object];
+    switch (kind(object)) {
+      case ObjectKind::triangle: result.append(kind(object), result.triangles_, triangle(object), origin); break;
+      case ObjectKind::polygon: result.append(kind(object), result.polygons_, polygon(object), origin); break;
+      case ObjectKind::sphere: result.append(kind(object), result.spheres_, sphere(object), origin); break;
+      case ObjectKind::cone: result.append(kind(object), result.cones_, cone(object), origin); break;
+    }
+  }
+  return result;
+}
+
+template class Geometry<float>;
+template class Geometry<double>;
+
+}  // namespace rayshoot

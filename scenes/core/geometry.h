@@ -1,0 +1,117 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenes/core/scene.h"
+#include "scenes/geometry/polygon.h"
+
+namespace rayshoot {
+
+/// Which side of a cone or cylinder can be hit; spheres, triangles and polygons are always two-sided.
+enum class ConeSides { both, outside };
+
+/// An object that cannot be traced in a given precision, and why.
+struct SetAside {
+  std::uint32_t scene_object;
+  std::string reason;
+};
+
+/// A scene's objects compiled for tracing in one precision. Objects that are not finite, out of range or without
+/// area are set aside; the others are numbered 0 to size()-1 in scene order. Immutable.
+template <class Real>
+class Geometry {
+ public:
+  explicit Geometry(const Scene& scene, ConeSides cone_sides = ConeSides::both);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(references_.size()); }
+  bool triangles_only() const { return triangles_.size() == references_.size(); }
+
+  /// The ray-object test: the nearest distance in (t_min, t_max] at which the ray meets `object`, or `kMiss`.
+  Real hit_distance(std::uint32_t object, const Ray<Real>& ray) const;
+  /// The same where `triangles_only()`: no other kind is looked at.
+  Real triangle_hit_distance(std::uint32_t object, const Ray<Real>& ray) const {
+    return rayshoot::hit_distance(triangles_[object], ray);
+  }
+
+  /// Conservative bounds of an object: every hit distance lies in the ray's interval inside them.
+  Box<Real> bounds(std::uint32_t object) const;
+  /// The union of all bounds; empty for an empty scene.
+  const Box<Real>& bounds() const { return bounds_; }
+  /// Whether the object's surface may reach the closed box; exact for triangles, convex polygons and spheres.
+  bool overlaps(std::uint32_t object, const Box<Real>& box) const;
+
+  ObjectKind kind(std::uint32_t object) const { return static_cast<ObjectKind>(references_[object] >> kIndexBits); }
+  /// Position of the object among those of its kind.
+  std::uint32_t index(std::uint32_t object) const { return references_[object] & kIndexMask; }
+  /// The object's number in the scene it came from.
+  std::uint32_t scene_object(std::uint32_t object) const { return scene_objects_[object]; }
+
+  const Triangle<Real>& triangle(std::uint32_t object) const { return triangles_[index(object)]; }
+  const Sphere<Real>& sphere(std::uint32_t object) const { return spheres_[index(object)]; }
+  const Cone<Real>& cone(std::uint32_t object) const { return cones_[index(object)]; }
+  const Polygon<Real>& polygon(std::uint32_t object) const { return polygons_[index(object)]; }
+  std::span<const Vec3<Real>> polygon_vertices(std::uint32_t object) const;
+  ConeSides cone_sides() const { return cone_sides_; }
+
+  const std::vector<SetAside>& set_aside() const { return set_aside_; }
+  std::size_t bytes() const;
+
+  /// The same objects in another order: object i of the result is object `order[i]` of this geometry. Objects of
+  /// a kind lie in memory in that order.
+  Geometry arranged(std::span<const std::uint32_t> order) const;
+
+ private:
+  static constexpr int kIndexBits = 30;
+  static constexpr std::uint32_t kIndexMask = (1u << kIndexBits) - 1;
+
+  Geometry() = default;
+  template <class Object>
+  void append(ObjectKind kind, std::vector<Object>& objects, const Object& object, std::uint32_t scene_object);
+  std::string try_append(const Scene& scene, std::uint32_t scene_object);
+
+  std::vector<std::uint32_t> references_;
+  std::vector<std::uint32_t> scene_objects_;
+  std::vector<Triangle<Real>> triangles_;
+  std::vector<Sphere<Real>> spheres_;
+  std::vector<Cone<Real>> cones_;
+  std::vector<Polygon<Real>> polygons_;
+  std::vector<Vec3<Real>> vertices_;
+  Box<Real> bounds_;
+  ConeSides cone_sides_ = ConeSides::both;
+  std::vector<SetAside> set_aside_;
+};
+
+template <class Real>
+inline std::span<const Vec3<Real>> Geometry<Real>::polygon_vertices(std::uint32_t object) const {
+  const Polygon<Real>& p = polygon(object);
+  return {vertices_.data() + p.first_vertex, p.vertex_count};
+}
+
+template <class Real>
+inline Real Geometry<Real>::hit_distance(std::uint32_t object, const Ray<Real>& ray) const {
+  switch (kind(object)) {
+    case ObjectKind::triangle: return rayshoot::hit_distance(triangle(object), ray);
+    case ObjectKind::polygon: return rayshoot::hit_distance(polygon(object), polygon_vertices(object), ray);
+    case ObjectKind::sphere: return rayshoot::hit_distance(sphere(object), ray);
+    case ObjectKind::cone: return rayshoot::hit_distance(cone(object), ray, cone_sides_ == ConeSides::outside);
+  }
+  return kMiss<Real>;
+}
+
+template <class Real>
+inline Box<Real> Geometry<Real>::bounds(std::uint32_t object) const {
+  switch (kind(object)) {
+    case ObjectKind::triangle: return rayshoot::bounds(triangle(object));
+    case ObjectKind::polygon: return rayshoot::bounds(polygon(object));
+    case ObjectKind::sphere: return rayshoot::bounds(sphere(object));
+    case ObjectKind::cone: return rayshoot::bounds(cone(object));
+  }
+  return {};
+}
+
+extern template class Geometry<float>;
+extern template class Geometry<double>;
+
+}  // namespace rayshoot

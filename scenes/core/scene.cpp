@@ -1,0 +1,112 @@
+#include "scenes/core/scene.h"
+
+#include <fmt/format.h>
+
+#include "scenes/core/digest.h"
+#include "scenes/geometry/polygon.h"
+
+namespace rayshoot {
+
+std::uint32_t Scene::vertex_count(std::uint32_t object) const {
+  const SceneObject& entry = objects[object];
+  return entry.kind == ObjectKind::triangle ? 3 : polygons[entry.index].vertex_count;
+}
+
+const Vec3d& Scene::vertex(std::uint32_t object, std::uint32_t corner) const {
+  const SceneObject& entry = objects[object];
+  if (entry.kind == ObjectKind::polygon) return polygon_vertices[polygons[entry.index].first_vertex + corner];
+  const Triangle<double>& triangle = triangles[entry.index];
+  return corner == 0 ? triangle.a : corner == 1 ? triangle.b : triangle.c;
+}
+
+Box<double> Scene::bounds() const {
+  Box<double> box;
+  for (const Triangle<double>& triangle : triangles) {
+    box.include(triangle.a), box.include(triangle.b), box.include(triangle.c);
+  }
+  for (const Vec3d& vertex : polygon_vertices) box.include(vertex);
+  for (const Sphere<double>& sphere : spheres) box.include(exact_bounds(sphere));
+  for (const Cone<double>& cone : cones) box.include(exact_bounds(cone));
+  return box;
+}
+
+std::array<std::size_t, 4> Scene::counts() const {
+  return {triangles.size(), polygons.size(), spheres.size(), cones.size()};
+}
+
+bool same_content(const Scene& a, const Scene& b) {
+  return a.background == b.background && a.view == b.view && a.lights == b.lights && a.materials == b.materials &&
+         a.objects == b.objects && a.triangles == b.triangles && a.polygons == b.polygons &&
+         a.polygon_vertices == b.polygon_vertices && a.spheres == b.spheres && a.cones == b.cones &&
+         a.vertex_normals == b.vertex_normals;
+}
+
+std::string scene_hash(const Scene& scene) {
+  Digest digest;
+  digest.add(scene.background), digest.add(scene.view.from), digest.add(scene.view.at), digest.add(scene.view.up);
+  for (const Light& light : scene.lights) digest.add(light.position);
+  for (const SceneObject& object : scene.objects) digest.add(std::array{static_cast<std::uint32_t>(object.kind), object.index});
+  digest.add_all(scene.triangles), digest.add_all(scene.polygons), digest.add_all(scene.polygon_vertices);
+  digest.add_all(scene.spheres), digest.add_all(scene.cones), digest.add_all(scene.vertex_normals);
+  for (const Material& material : scene.materials) digest.add(material);
+  return digest.hex();
+}
+
+namespace {
+
+/// Barycentric weights of `point` in the projection of a triangle onto its dominant plane.
+Vec3d barycentric(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& point) {
+  const Vec3d normal = cross(b - a, c - a);
+  const double whole = dot(normal, normal);
+  const double weight_b = dot(cross(point - a, c - a), normal) / whole;
+  const double weight_c = dot(cross(b - a, point - a), normal) / whole;
+  return {1 - weight_b - weight_c, weight_b, weight_c};
+}
+
+Vec3d flat_normal(const Scene& scene, std::uint32_t object) {
+  const std::uint32_t count = scene.vertex_count(object);
+  const Vec3d& anchor = scene.vertex(object, 0);
+  Vec3d sum{};
+  for (std::uint32_t corner = 1; corner + 1 < count; ++corner)
+    sum += cross(scene.vertex(object, corner) - anchor, scene.vertex(object, corner + 1) - anchor);
+  return normalized(sum);
+}
+
+Vec3d smooth_normal(const Scene& scene, std::uint32_t object, const Vec3d& point) {
+  // Interpolate within the fan triangle about vertex 0 that holds the point best.
+  const Vec3d* normals = &scene.vertex_normals[scene.objects[object].first_normal];
+  Vec3d best{};
+  double best_least_weight = -Box<double>::infinity();
+  for (std::uint32_t corner = 1; corner + 1 < scene.vertex_count(object); ++corner) {
+    const Vec3d w = barycentric(scene.vertex(object, 0), scene.vertex(object, corner),
+                                scene.vertex(object, corner + 1), point);
+    const double least = std::min({w.x, w.y, w.z});
+    if (least <= best_least_weight) continue;
+    best_least_weight = least;
+    best = normals[0] * w.x + normals[corner] * w.y + normals[corner + 1] * w.z;
+  }
+  return normalized(best);
+}
+
+Vec3d cone_normal(const Cone<double>& cone, const Vec3d& point) {
+  const Vec3d span = cone.apex - cone.base;
+  const double height = length(span);
+  const Vec3d axis = span * (1 / height);
+  const Vec3d aside = (point - cone.base) - axis * dot(point - cone.base, axis);
+  return normalized(normalized(aside) + axis * ((cone.base_radius - cone.apex_radius) / height));
+}
+
+}  // namespace
+
+Vec3d surface_normal(const Scene& scene, std::uint32_t object, const Vec3d& point, bool smooth) {
+  const SceneObject& entry = scene.objects[object];
+  switch (entry.kind) {
+    case ObjectKind::sphere: return normalized(point - scene.spheres[entry.index].centre);
+    case ObjectKind::cone: return cone_normal(scene.cones[entry.index], point);
+    default: break;
+  }
+  const bool interpolate = smooth && entry.first_normal != kNoObject;
+  return interpolate ? smooth_normal(scene, object, point) : flat_normal(scene, object);
+}
+
+}  // namespace rayshoot

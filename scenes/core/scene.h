@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/geometry/cone.h"
+#include "scenes/geometry/sphere.h"
+#include "scenes/geometry/triangle.h"
+
+namespace rayshoot {
+
+enum class ObjectKind : std::uint8_t { triangle, polygon, sphere, cone };
+inline constexpr std::array kObjectKindNames = {"triangle", "polygon", "sphere", "cone"};
+
+/// An NFF material: `f red green blue Kd Ks Shine T index_of_refraction`.
+struct Material {
+  Vec3d colour{1, 1, 1};
+  double diffuse = 1;
+  double specular = 0;
+  double shine = 1;
+  double transmittance = 0;
+  double index_of_refraction = 1;
+
+  bool reflects() const { return specular > 0 || transmittance > 0; }
+  bool refracts() const { return transmittance > 0; }
+  friend bool operator==(const Material&, const Material&) = default;
+};
+
+/// A point light; without a colour NFF leaves its intensity to the renderer.
+struct Light {
+  Vec3d position;
+  std::optional<Vec3d> colour;
+
+  friend bool operator==(const Light&, const Light&) = default;
+};
+
+/// The pinhole camera of NFF; `angle` is the full field of view in degrees.
+struct View {
+  Vec3d from{0, 0, -5}, at{0, 0, 0}, up{0, 1, 0};
+  double angle = 45;
+  double hither = 0;
+  int width = 512, height = 512;
+
+  friend bool operator==(const View&, const View&) = default;
+};
+
+/// One entry of a scene's object list, in the order in which objects were generated.
+struct SceneObject {
+  ObjectKind kind = ObjectKind::triangle;
+  /// Position among the objects of its kind.
+  std::uint32_t index = 0;
+  std::uint32_t material = 0;
+  /// First of this object's vertex normals, or `kNoObject` for a flat object.
+  std::uint32_t first_normal = kNoObject;
+
+  friend bool operator==(const SceneObject&, const SceneObject&) = default;
+};
+
+/// Vertices [first_vertex, first_vertex + vertex_count) of `Scene::polygon_vertices`.
+struct VertexRange {
+  std::uint32_t first_vertex = 0;
+  std::uint32_t vertex_count = 0;
+
+  friend bool operator==(const VertexRange&, const VertexRange&) = default;
+};
+
+/// Everything a file says about a scene, in double precision. Objects keep their order; each refers to one of
+/// the arrays below it.
+struct Scene {
+  /// Canonical specification, for example "balls:4/patches"; the key under which reports know the scene.
+  std::string id;
+  Vec3d background{0, 0, 0};
+  View view;
+  std::vector<Light> lights;
+  std::vector<Material> materials;
+
+  std::vector<SceneObject> objects;
+  std::vector<Triangle<double>> triangles;
+  std::vector<VertexRange> polygons;
+  std::vector<Vec3d> polygon_vertices;
+  std::vector<Sphere<double>> spheres;
+  std::vector<Cone<double>> cones;
+  /// Vertex normals of smooth objects, as given: not necessarily of unit length.
+  std::vector<Vec3d> vertex_normals;
+
+  std::size_t size() const { return objects.size(); }
+
+  /// Number of vertices of object `object`, which must be a triangle or a polygon.
+  std::uint32_t vertex_count(std::uint32_t object) const;
+  /// Vertex `corner` of object `object`, which must be a triangle or a polygon.
+  const Vec3d& vertex(std::uint32_t object, std::uint32_t corner) const;
+  /// The exact bounds of all objects in double precision, before any padding.
+  Box<double> bounds() const;
+  /// Number of objects of each kind, indexed by `ObjectKind`.
+  std::array<std::size_t, 4> counts() const;
+};
+
+/// Same content, whatever the name: what a written file must read back to.
+bool same_content(const Scene& a, const Scene& b);
+
+/// Order-sensitive digest of a scene's content, as 16 hexadecimal digits.
+std::string scene_hash(const Scene& scene);
+
+/// Outward unit normal of `object` at `point`: of the surface, or interpolated between vertex normals where
+/// `smooth` is set and the object has them. Polygons and triangles point where their vertices run
+/// counter-clockwise.
+Vec3d surface_normal(const Scene& scene, std::uint32_t object, const Vec3d& point, bool smooth = true);
+
+}  // namespace rayshoot

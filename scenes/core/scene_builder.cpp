@@ -1,0 +1,129 @@
+#include "scenes/core/scene_builder.h"
+
+#include <numbers>
+
+#include "scenes/core/affine.h"
+
+namespace rayshoot {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+}  // namespace
+
+SceneBuilder::SceneBuilder(const SceneOptions& options) : options_(options) {}
+
+void SceneBuilder::add_object(ObjectKind kind, std::size_t index, std::uint32_t first_normal) {
+  if (scene_.materials.empty()) scene_.materials.emplace_back();
+  scene_.objects.push_back({kind, static_cast<std::uint32_t>(index),
+                            static_cast<std::uint32_t>(scene_.materials.size() - 1), first_normal});
+}
+
+void SceneBuilder::triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  add_object(ObjectKind::triangle, scene_.triangles.size());
+  scene_.triangles.push_back({a, b, c});
+}
+
+void SceneBuilder::patch(const std::array<Vec3d, 3>& vertices, const std::array<Vec3d, 3>& normals) {
+  polygon(vertices, normals);
+}
+
+void SceneBuilder::polygon(std::span<const Vec3d> vertices) {
+  if (vertices.size() == 3) return triangle(vertices[0], vertices[1], vertices[2]);
+  add_object(ObjectKind::polygon, scene_.polygons.size());
+  scene_.polygons.push_back({static_cast<std::uint32_t>(scene_.polygon_vertices.size()),
+                             static_cast<std::uint32_t>(vertices.size())});
+  scene_.polygon_vertices.insert(scene_.polygon_vertices.end(), vertices.begin(), vertices.end());
+}
+
+void SceneBuilder::polygon(std::span<const Vec3d> vertices, std::span<const Vec3d> normals) {
+  polygon(vertices);
+  scene_.objects.back().first_normal = static_cast<std::uint32_t>(scene_.vertex_normals.size());
+  for (const Vec3d& normal : normals) scene_.vertex_normals.push_back(normal * normal_scale_);
+}
+
+void SceneBuilder::sphere(const Vec3d& centre, double radius) {
+  if (options_.form == SceneForm::patches) return tessellate_sphere(centre, radius);
+  add_object(ObjectKind::sphere, scene_.spheres.size());
+  scene_.spheres.push_back({centre, radius});
+}
+
+void SceneBuilder::cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) {
+  const Cone<double> cone{base, base_radius, apex, apex_radius};
+  if (options_.form == SceneForm::patches) return tessellate_cone(cone);
+  add_object(ObjectKind::cone, scene_.cones.size());
+  scene_.cones.push_back(cone);
+}
+
+/// A grid on one face of a cube, blown up to the sphere, serves all six faces: it is turned in place before each.
+void SceneBuilder::tessellate_sphere(const Vec3d& centre, double radius) {
+  const int cells = options_.tessellation;
+  std::vector<std::vector<Vec3d>> grid(cells + 1, std::vector<Vec3d>(cells + 1));
+  for (int u = 0; u <= cells; ++u)
+    for (int v = 0; v <= cells; ++v) {
+      const double a = kPi / 4 * (2.0 * u / cells - 1), b = kPi / 4 * (2.0 * v / cells - 1);
+      grid[u][v] = normalized(
+          Vec3d{std::sin(a) * std::cos(b), -std::cos(a) * std::sin(b), std::cos(a) * std::cos(b)});
+    }
+  for (int face = 0; face < 6; ++face) {
+    for (auto& row : grid)
+      for (Vec3d& p : row)
+        p = face % 3 == 0 ? Vec3d{-p.z, p.y, p.x} : face % 3 == 1 ? Vec3d{-p.y, p.x, p.z} : Vec3d{p.x, -p.z, p.y};
+    for (int u = 0; u < cells; ++u)
+      for (int v = 0; v < cells; ++v) {
+        const Vec3d &q0 = grid[u][v], &q1 = grid[u][v + 1], &q2 = grid[u + 1][v + 1], &q3 = grid[u + 1][v];
+        const auto on_sphere = [&](const Vec3d& q) { return centre + q * radius; };
+        patch({on_sphere(q0), on_sphere(q1), on_sphere(q2)}, {q0, q1, q2});
+        patch({on_sphere(q2), on_sphere(q3), on_sphere(q0)}, {q2, q3, q0});
+      }
+  }
+}
+
+void SceneBuilder::tessellate_cone(const Cone<double>& cone) {
+  const Vec3d span = cone.apex - cone.base;
+  const double height = length(span);
+  const Vec3d axis = span * (1 / height);
+
+  // Start in a direction across the axis, and tilt the normal by the slope of the cone.
+  Vec3d start = cross(span, Vec3d{0, 0, 1});
+  if (length(start) < 1e-6) start = cross(span, Vec3d{1, 0, 0});
+  start = normalized(start);
+  const Vec3d tilted = cone.base_radius == cone.apex_radius
+                           ? start
+                           : normalized(start * height + axis * (cone.base_radius - cone.apex_radius));
+
+  // Walk around the axis, two triangles a facet.
+  const int facets = 4 * options_.tessellation;
+  double angle = 0;
+  Vec3d previous_apex = cone.apex + start * cone.apex_radius;
+  Vec3d previous_base = cone.base + start * cone.base_radius;
+  Vec3d previous_normal = tilted;
+  for (int facet = 0; facet < facets; ++facet) {
+    angle += 2 * kPi / facets;
+    const Affine turn = rotation(axis, angle);
+    const Vec3d around = turn(start);
+    const Vec3d apex = cone.apex + around * cone.apex_radius;
+    const Vec3d base = cone.base + around * cone.base_radius;
+    const Vec3d normal = turn(tilted);
+    patch({apex, previous_apex, previous_base}, {normal, previous_normal, previous_normal});
+    patch({base, apex, previous_base}, {normal, normal, previous_normal});
+    previous_apex = apex, previous_base = base, previous_normal = normal;
+  }
+}
+
+double patches_of_sphere(const SceneOptions& options) {
+  return options.form == SceneForm::patches ? 12.0 * options.tessellation * options.tessellation : 1.0;
+}
+
+double patches_of_cone(const SceneOptions& options) {
+  return options.form == SceneForm::patches ? 8.0 * options.tessellation : 1.0;
+}
+
+double shine_from_highlight_angle(double degrees) {
+  if (degrees <= 0) return 100000;
+  if (degrees >= 90) return 1;
+  return std::log(0.5) / std::log(std::cos(degrees * kPi / 180));
+}
+
+}  // namespace rayshoot

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <span>
+
+#include "scenes/core/scene.h"
+
+namespace rayshoot {
+
+/// In what form curved objects are generated (SPD's output modes).
+enum class SceneForm { curves, patches };
+
+/// What every generator is asked for.
+struct SceneOptions {
+  int size = 1;
+  SceneForm form = SceneForm::curves;
+  /// SPD's resolution R of patches: a sphere becomes 12 R^2 triangles, a cone 8 R.
+  int tessellation = 3;
+};
+
+/// Receives what a generator emits, in order. In the form `patches` spheres and cones arrive in the scene as
+/// triangles with vertex normals, exactly as SPD tessellates them.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(const SceneOptions& options = {});
+
+  void background(const Vec3d& colour) { scene_.background = colour; }
+  void view(const View& view) { scene_.view = view; }
+  void light(const Vec3d& position) { scene_.lights.push_back({position, std::nullopt}); }
+  /// The material of all that follows.
+  void material(const Material& material) { scene_.materials.push_back(material); }
+
+  void triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c);
+  /// A triangle with vertex normals (NFF `pp 3`).
+  void patch(const std::array<Vec3d, 3>& vertices, const std::array<Vec3d, 3>& normals);
+  /// A polygon; three vertices make a triangle.
+  void polygon(std::span<const Vec3d> vertices);
+  /// A polygon with vertex normals (NFF `pp`).
+  void polygon(std::span<const Vec3d> vertices, std::span<const Vec3d> normals);
+  void sphere(const Vec3d& centre, double radius);
+  void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius);
+
+  /// Multiply the normals of the patches that follow; only jacks asks for other than 1.
+  void scale_normals(double factor) { normal_scale_ = factor; }
+  /// Replace the tessellation asked for; only jacks does.
+  void override_tessellation(int resolution) { options_.tessellation = resolution; }
+
+  Scene finish() && { return std::move(scene_); }
+
+ private:
+  void add_object(ObjectKind kind, std::size_t index, std::uint32_t first_normal = kNoObject);
+  void tessellate_sphere(const Vec3d& centre, double radius);
+  void tessellate_cone(const Cone<double>& cone);
+
+  SceneOptions options_;
+  double normal_scale_ = 1;
+  Scene scene_;
+};
+
+/// Number of objects a sphere or a cone becomes in the form asked for.
+double patches_of_sphere(const SceneOptions& options);
+double patches_of_cone(const SceneOptions& options);
+
+/// The Phong exponent at which a highlight falls to half its height at `degrees` from its centre.
+double shine_from_highlight_angle(double degrees);
+
+}  // namespace rayshoot

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <span>
+
+#include "scenes/geometry/cone.h"
+#include "scenes/geometry/polygon.h"
+#include "scenes/geometry/sphere.h"
+#include "scenes/geometry/triangle.h"
+
+namespace rayshoot {
+
+/// Conservative surface-box tests: false only where the surface certainly does not reach the closed box. Each
+/// widens the box by the rounding of hit distances first, so that a hit found inside a box always belongs to an
+/// object that was assigned to that box.
+namespace overlap {
+
+/// Half the extent of a box in double precision, widened by 32 ulps of `Real` of its largest coordinate.
+template <class Real>
+Vec3d half_extent(const Box<Real>& box) {
+  const double margin =
+      32.0 * std::numeric_limits<Real>::epsilon() * static_cast<double>(std::max(max_abs(box.lo), max_abs(box.hi)));
+  return (Vec3d(box.hi) - Vec3d(box.lo)) * 0.5 + Vec3d{margin, margin, margin};
+}
+
+template <class Real>
+Vec3d centre(const Box<Real>& box) {
+  return (Vec3d(box.lo) + Vec3d(box.hi)) * 0.5;
+}
+
+/// Separating-axis test of a flat polygon (its convex hull) against a box, after Akenine-Möller (2001): the
+/// box's own axes, the plane's normal, and the products of edges and axes.
+template <class Real>
+bool flat(std::span<const Vec3<Real>> vertices, const Vec3d& normal, const Box<Real>& box) {
+  const Vec3d middle = centre(box), half = half_extent(box);
+  const auto separated_along = [&](const Vec3d& axis) {
+    const double reach = half.x * std::abs(axis.x) + half.y * std::abs(axis.y) + half.z * std::abs(axis.z);
+    double lowest = Box<double>::infinity(), highest = -lowest;
+    for (const Vec3<Real>& vertex : vertices) {
+      const double along = dot(axis, Vec3d(vertex) - middle);
+      lowest = std::min(lowest, along), highest = std::max(highest, along);
+    }
+    return lowest > reach || highest < -reach;
+  };
+  const Vec3d axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const Vec3d& axis : axes)
+    if (separated_along(axis)) return false;
+  if (separated_along(normal)) return false;
+  Vec3d previous(vertices.back());
+  for (const Vec3<Real>& vertex : vertices) {
+    const Vec3d edge = Vec3d(vertex) - previous;
+    for (const Vec3d& axis : axes)
+      if (separated_along(cross(edge, axis))) return false;
+    previous = Vec3d(vertex);
+  }
+  return true;
+}
+
+}  // namespace overlap
+
+template <class Real>
+bool surface_overlaps(const Triangle<Real>& triangle, const Box<Real>& box) {
+  const Vec3<Real> vertices[] = {triangle.a, triangle.b, triangle.c};
+  return overlap::flat<Real>(vertices, double_area_vector(triangle), box);
+}
+
+template <class Real>
+bool surface_overlaps(const Polygon<Real>& polygon, std::span<const Vec3<Real>> vertices, const Box<Real>& box) {
+  return overlap::flat<Real>(vertices, polygon.normal, box);
+}
+
+/// A sphere's surface reaches a box when the box's nearest point is inside and its farthest outside the sphere
+/// (Arvo 1990).
+template <class Real>
+bool surface_overlaps(const Sphere<Real>& sphere, const Box<Real>& box) {
+  const Vec3d middle = overlap::centre(box), half = overlap::half_extent(box);
+  double nearest = 0, farthest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double offset = std::abs(static_cast<double>(sphere.centre[axis]) - middle[axis]);
+    const double near = std::max(0.0, offset - half[axis]), far = offset + half[axis];
+    nearest += near * near, farthest += far * far;
+  }
+  const double radius_squared = static_cast<double>(sphere.radius) * sphere.radius;
+  return nearest <= radius_squared && radius_squared <= farthest;
+}
+
+/// Cones have no cheap exact test: their bounds stand for them.
+template <class Real>
+bool surface_overlaps(const Cone<Real>& cone, const Box<Real>& box) {
+  return bounds(cone).overlaps(box);
+}
+
+}  // namespace rayshoot
