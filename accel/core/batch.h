@@ -25,8 +25,9 @@ class ThreadScratch {
   tbb::enumerable_thread_specific<std::unique_ptr<EngineScratch>> scratch_;
 };
 
-/// Call `body(first, last)` for ranges that cover [0, count), on `threads` threads; on the calling thread alone,
-/// without any scheduler, for one thread. What `body` computes must not depend on how the range is cut.
+/// Call `body(first, last)` for ranges that cover [0, count), on `threads` threads; on the calling thread
+/// alone, without any scheduler, for one thread. What `body` computes must not depend on how the range is
+/// cut.
 template <class Body>
 void for_batches(std::size_t count, int threads, const Body& body) {
   if (threads == 1) {
@@ -35,8 +36,9 @@ void for_batches(std::size_t count, int threads, const Body& body) {
     return;
   }
   tbb::task_arena(threads).execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kRaysPerBatch),
-                      [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, kRaysPerBatch),
+        [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
   });
 }
 

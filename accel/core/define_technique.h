@@ -33,19 +33,25 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     }
   }
 
-  std::unique_ptr<EngineScratch> scratch() const override { return std::make_unique<Scratch>(technique_.scratch()); }
+  std::unique_ptr<EngineScratch> scratch() const override {
+    return std::make_unique<Scratch>(technique_.scratch());
+  }
 
-  void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits, EngineScratch& scratch) const override {
+  void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
+               EngineScratch& scratch) const override {
     with_test([&](const auto& test) {
       auto& own = static_cast<Scratch&>(scratch).technique;
-      for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest_hit(technique_, test, name(), rays[i], own);
+      for (std::size_t i = 0; i < rays.size(); ++i)
+        hits[i] = closest_hit(technique_, test, name(), rays[i], own);
     });
   }
 
-  void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked, EngineScratch& scratch) const override {
+  void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked,
+           EngineScratch& scratch) const override {
     with_test([&](const auto& test) {
       auto& own = static_cast<Scratch&>(scratch).technique;
-      for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = any_hit(technique_, test, name(), rays[i], own);
+      for (std::size_t i = 0; i < rays.size(); ++i)
+        blocked[i] = any_hit(technique_, test, name(), rays[i], own);
     });
   }
 
@@ -63,7 +69,8 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     return sum;
   }
 
-  std::vector<std::uint32_t> candidates(Query query, const Ray<Real>& ray, EngineScratch& scratch) const override {
+  std::vector<std::uint32_t> candidates(Query query, const Ray<Real>& ray,
+                                        EngineScratch& scratch) const override {
     auto& own = static_cast<Scratch&>(scratch);
     Work work;
     counted_query(query, ray, own, work);
@@ -77,8 +84,10 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
   StructureStats structure() const override { return technique_.structure(); }
 
   std::optional<Prediction<Real>> predicted() const override {
-    if constexpr (PredictsCost<A>) return technique_.predicted();
-    else return std::nullopt;
+    if constexpr (PredictsCost<A>)
+      return technique_.predicted();
+    else
+      return std::nullopt;
   }
 
  private:
@@ -89,15 +98,19 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
   };
 
   Naming name() const {
-    if constexpr (OrdersObjects<A>) return {technique_.order().data()};
-    else return {};
+    if constexpr (OrdersObjects<A>)
+      return {technique_.order().data()};
+    else
+      return {};
   }
 
   /// Call `function` with the cheapest ray-object test that serves the scene's kinds of objects.
   template <class Function>
   void with_test(const Function& function) const {
-    if (geometry_->triangles_only()) function(ObjectTest<Real, true>{*geometry_});
-    else function(ObjectTest<Real, false>{*geometry_});
+    if (geometry_->triangles_only())
+      function(ObjectTest<Real, true>{*geometry_});
+    else
+      function(ObjectTest<Real, false>{*geometry_});
   }
 
   Hit<Real> counted_query(Query query, const Ray<Real>& ray, Scratch& scratch, Work& work) const {
@@ -142,10 +155,10 @@ TechniqueEntry define_technique() {
 }
 
 /// Registers the technique `TYPE<Real>` of the file `ID.cpp`.
-#define RAYSHOOT_TECHNIQUE(ID, TYPE)                             \
-  const TechniqueEntry& technique_##ID() {                       \
+#define RAYSHOOT_TECHNIQUE(ID, TYPE)                              \
+  const TechniqueEntry& technique_##ID() {                        \
     static const TechniqueEntry entry = define_technique<TYPE>(); \
-    return entry;                                                \
+    return entry;                                                 \
   }
 
 }  // namespace rayshoot

@@ -9,13 +9,14 @@ namespace rayshoot {
 
 enum class Query { closest, any, strict };
 
-/// What a counted batch found out, beyond the sum of its work: the moments of the number of distinct candidates
-/// per ray, from which M and its interval follow, and of the tests, for the intervals of equation (3).
+/// What a counted batch found out, beyond the sum of its work: the moments of the number of distinct
+/// candidates per ray, from which M and its interval follow, and of the tests, for the intervals of equation
+/// (3).
 struct CountedWork {
   Work total;
-  double distinct_squares = 0;       ///< sum over rays of (distinct candidates)^2
-  double object_test_squares = 0;    ///< sum over rays of (object tests)^2
-  double volume_test_squares = 0;    ///< sum over rays of (volume tests)^2
+  double distinct_squares = 0;     ///< sum over rays of (distinct candidates)^2
+  double object_test_squares = 0;  ///< sum over rays of (object tests)^2
+  double volume_test_squares = 0;  ///< sum over rays of (volume tests)^2
 
   CountedWork& operator+=(const CountedWork& other);
 };
@@ -26,16 +27,18 @@ class EngineScratch {
   virtual ~EngineScratch() = default;
 };
 
-/// A built technique behind the one virtual call per batch of rays. Objects in hits are those of the geometry it
-/// was built from. Const: threads share it, each with a scratch of its own.
+/// A built technique behind the one virtual call per batch of rays. Objects in hits are those of the geometry
+/// it was built from. Const: threads share it, each with a scratch of its own.
 template <class Real>
 class Engine {
  public:
   virtual ~Engine() = default;
 
   virtual std::unique_ptr<EngineScratch> scratch() const = 0;
-  virtual void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits, EngineScratch& scratch) const = 0;
-  virtual void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked, EngineScratch& scratch) const = 0;
+  virtual void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
+                       EngineScratch& scratch) const = 0;
+  virtual void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked,
+                   EngineScratch& scratch) const = 0;
 
   /// Whether the two functions below are available: engines that cannot be watched return false.
   virtual bool countable() const { return true; }
@@ -43,14 +46,15 @@ class Engine {
   virtual CountedWork count(Query query, std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
                             EngineScratch& scratch) const = 0;
   /// The distinct candidates of one ray in increasing order.
-  virtual std::vector<std::uint32_t> candidates(Query query, const Ray<Real>& ray, EngineScratch& scratch) const = 0;
+  virtual std::vector<std::uint32_t> candidates(Query query, const Ray<Real>& ray,
+                                                EngineScratch& scratch) const = 0;
 
   virtual StructureStats structure() const = 0;
   virtual std::optional<Prediction<Real>> predicted() const { return std::nullopt; }
 };
 
-/// A ray set with its verified nearest hits, for techniques that replay instead of search. The nearest hit of a
-/// ray that asks for any hit is a hit as well.
+/// A ray set with its verified nearest hits, for techniques that replay instead of search. The nearest hit of
+/// a ray that asks for any hit is a hit as well.
 template <class Real>
 struct RecordedHits {
   std::span<const Ray<Real>> rays;
@@ -69,19 +73,24 @@ struct EngineInput {
 /// A technique in the registry. One file accel/<family>/<id>.cpp defines one, as `technique_<id>()`.
 struct TechniqueEntry {
   TechniqueInfo info;
-  /// Build; throws InputError when the arguments contradict one another. Null where a scalar is not supported.
+  /// Build; throws InputError when the arguments contradict one another. Null where a scalar is not
+  /// supported.
   std::unique_ptr<Engine<float>> (*build_float)(const EngineInput<float>&) = nullptr;
   std::unique_ptr<Engine<double>> (*build_double)(const EngineInput<double>&) = nullptr;
 
   template <class Real>
   bool supports() const {
-    if constexpr (std::same_as<Real, float>) return build_float != nullptr;
-    else return build_double != nullptr;
+    if constexpr (std::same_as<Real, float>)
+      return build_float != nullptr;
+    else
+      return build_double != nullptr;
   }
   template <class Real>
   std::unique_ptr<Engine<Real>> build(const EngineInput<Real>& input) const {
-    if constexpr (std::same_as<Real, float>) return build_float(input);
-    else return build_double(input);
+    if constexpr (std::same_as<Real, float>)
+      return build_float(input);
+    else
+      return build_double(input);
   }
 };
 

@@ -12,8 +12,10 @@ struct ObjectTest {
   const Geometry<Real>& geometry;
 
   Real operator()(std::uint32_t position, const Ray<Real>& ray) const {
-    if constexpr (TrianglesOnly) return geometry.triangle_hit_distance(position, ray);
-    else return geometry.hit_distance(position, ray);
+    if constexpr (TrianglesOnly)
+      return geometry.triangle_hit_distance(position, ray);
+    else
+      return geometry.hit_distance(position, ray);
   }
 };
 
@@ -83,7 +85,8 @@ class StrictLeaf {
 template <class Inner>
 class RecordingLeaf {
  public:
-  RecordingLeaf(Inner& inner, std::vector<std::uint32_t>& candidates) : inner_(inner), candidates_(candidates) {}
+  RecordingLeaf(Inner& inner, std::vector<std::uint32_t>& candidates)
+      : inner_(inner), candidates_(candidates) {}
 
   bool operator()(std::uint32_t position) {
     candidates_.push_back(position);
@@ -117,8 +120,8 @@ bool any_hit(const A& technique, const Test& test, Naming name, const Ray<Real>&
 /// Visit with `leaf`, counting all work but distinct objects, and leave every candidate in `candidates`:
 /// Revelles' optimizer A(r, s) with a ClosestLeaf, the strict optimizer with a StrictLeaf.
 template <Technique A, class Real, class Inner>
-void counted_visit(const A& technique, const Ray<Real>& ray, typename A::Scratch& scratch, Work& work, Inner& leaf,
-                   std::vector<std::uint32_t>& candidates) {
+void counted_visit(const A& technique, const Ray<Real>& ray, typename A::Scratch& scratch, Work& work,
+                   Inner& leaf, std::vector<std::uint32_t>& candidates) {
   candidates.clear();
   RecordingLeaf<Inner> recorder(leaf, candidates);
   technique.visit(ray, scratch, Count(work), recorder);

@@ -59,7 +59,8 @@ struct Prediction {
 
 /// A leaf is what a query hands to `visit`: it tests the objects it is given and remembers the outcome.
 ///   leaf(object)  tests one candidate; true when the query is answered and the visit must end
-///   leaf.reach()  the distance beyond which nothing matters any more; a hit at exactly that distance still does
+///   leaf.reach()  the distance beyond which nothing matters any more; a hit at exactly that distance still
+///   does
 template <class L, class Real>
 concept Leaf = requires(L leaf, std::uint32_t object) {
   { leaf(object) } -> std::same_as<bool>;
@@ -87,8 +88,8 @@ concept Technique = requires(const A a, typename A::Scratch scratch, BuildInput<
   { A::info() } -> std::same_as<TechniqueInfo>;
   { A::configure(arguments) } -> std::same_as<typename A::Config>;
   { A::build(in, typename A::Config{}) } -> std::same_as<A>;
-  { a.visit(ray, scratch, none, leaf) };
-  { a.visit(ray, scratch, count, leaf) };
+  {a.visit(ray, scratch, none, leaf)};
+  {a.visit(ray, scratch, count, leaf)};
   { a.structure() } -> std::same_as<StructureStats>;
   { a.scratch() } -> std::same_as<typename A::Scratch>;
 };

@@ -10,6 +10,8 @@
 
 namespace rayshoot {
 
+namespace {
+
 template <class Real>
 class Exhaustive {
  public:
@@ -50,6 +52,8 @@ class Exhaustive {
   std::uint32_t objects_ = 0;
   Box<Real> bounds_;
 };
+
+}  // namespace
 
 RAYSHOOT_TECHNIQUE(exhaustive, Exhaustive)
 
