@@ -1,0 +1,39 @@
+#include "harness/plan/catalogue.h"
+
+#include <fmt/format.h>
+
+#include "accel/core/registry.h"
+
+namespace rayshoot {
+
+namespace {
+
+const TechniqueEntry& find_technique(const std::string& id) {
+  std::vector<std::string> known;
+  for (const TechniqueEntry* entry : catalogue()) {
+    if (entry->info.id == id) return *entry;
+    known.push_back(entry->info.id);
+  }
+  throw InputError(unknown_name("technique", id, known));
+}
+
+}  // namespace
+
+const std::vector<const TechniqueEntry*>& catalogue() {
+  static const std::vector<const TechniqueEntry*> entries = [] {
+    const auto techniques = technique_entries();
+    return std::vector<const TechniqueEntry*>(techniques.begin(), techniques.end());
+  }();
+  return entries;
+}
+
+TechniqueChoice choose_technique(std::string_view text) {
+  const Spec spec = parse_spec(text);
+  const TechniqueEntry& entry = find_technique(spec.name);
+  if (!spec.size.empty() || !spec.form.empty())
+    throw InputError(
+        fmt::format("technique '{}': write {} or {}(key=value,...)", text, spec.name, spec.name));
+  return {&entry, Arguments(entry.info.parameters, spec.arguments, spec.name), std::string(text)};
+}
+
+}  // namespace rayshoot

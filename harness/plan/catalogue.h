@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "accel/core/engine.h"
+
+namespace rayshoot {
+
+/// Every technique that can be run: those of the papers sorted by id, then the baselines.
+const std::vector<const TechniqueEntry*>& catalogue();
+
+/// A technique with values for all of its parameters.
+struct TechniqueChoice {
+  const TechniqueEntry* entry = nullptr;
+  Arguments arguments;
+  /// What was asked for, for example "uniform_grid(density=2)".
+  std::string spec;
+};
+
+/// The technique that `spec`, a name or name(key=value,...), asks for; throws InputError on an unknown name
+/// or key and on a value out of range.
+TechniqueChoice choose_technique(std::string_view spec);
+
+}  // namespace rayshoot
