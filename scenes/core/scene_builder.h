@@ -25,7 +25,9 @@ class SceneBuilder {
 
   void background(const Vec3d& colour) { scene_.background = colour; }
   void view(const View& view) { scene_.view = view; }
-  void light(const Vec3d& position) { scene_.lights.push_back({position, std::nullopt}); }
+  void light(const Vec3d& position, const std::optional<Vec3d>& colour = std::nullopt) {
+    scene_.lights.push_back({position, colour});
+  }
   /// The material of all that follows.
   void material(const Material& material) { scene_.materials.push_back(material); }
 
