@@ -10,8 +10,8 @@
 
 namespace rayshoot {
 
-/// What a ray distribution needs to know nearest hits: scenes do not trace, so whoever generates rays brings a
-/// tracer. Objects in hits are numbered as in the scene.
+/// What a ray distribution needs to know nearest hits: scenes do not trace, so whoever generates rays brings
+/// a tracer. Objects in hits are numbered as in the scene.
 class Tracer {
  public:
   virtual ~Tracer() = default;

@@ -13,7 +13,8 @@ std::string RaySet::hash() const {
 
 namespace {
 
-/// How far along a ray its rounded origin may lie off the surface it starts on: 32 ulps of its largest coordinate.
+/// How far along a ray its rounded origin may lie off the surface it starts on: 32 ulps of its largest
+/// coordinate.
 template <class Real>
 Real rounding_of_origin(const Ray<Real>& ray) {
   const Real size = max_abs(ray.origin), speed = length(ray.direction);

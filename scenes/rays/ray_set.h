@@ -9,20 +9,32 @@
 
 namespace rayshoot {
 
-enum class RayKind : std::uint8_t { primary, shadow, reflected, refracted, chord, segment, diffuse };
+/// `light` rays lead from a light to a surface, `shadow` rays the other way.
+enum class RayKind : std::uint8_t {
+  primary,
+  shadow,
+  reflected,
+  refracted,
+  chord,
+  point_pair,
+  diffuse,
+  light
+};
 
 /// Where a ray of a ray set comes from, for the techniques that use it.
 struct RayOrigin {
   RayKind kind = RayKind::primary;
-  /// Depth in the ray tree; the eye ray has generation 1.
+  /// Depth in the ray tree: the eye ray has generation 1, a shadow ray that of the ray at whose hit it
+  /// starts.
   std::uint8_t generation = 1;
-  /// The light a shadow ray leads to, or -1.
-  std::int16_t light = -1;
+  /// The light a ray leads to or comes from, or -1.
+  std::int32_t light = -1;
   /// The scene object the ray starts on, or `kNoObject`.
   std::uint32_t source_object = kNoObject;
 };
 
-/// Numbers of rays and hits by kind, in the terms of the SPD tables; zero where a distribution has no such rays.
+/// Numbers of rays and hits by kind, in the terms of the SPD tables; zero where a distribution has no such
+/// rays.
 struct RayCounts {
   std::uint64_t primary_rays = 0, primary_hits = 0;
   std::uint64_t shadow_rays = 0, shadow_hits = 0;
@@ -30,8 +42,8 @@ struct RayCounts {
   std::uint64_t secondary_hits = 0;
 };
 
-/// Rays generated once per scene, stored, hashed and shared by every technique. The first `closest_rays` ask for
-/// the closest hit, those behind them for any hit.
+/// Rays generated once per scene, stored, hashed and shared by every technique. The first `closest_rays` ask
+/// for the closest hit, those behind them for any hit.
 struct RaySet {
   /// Distribution with what distinguishes it, for example "whitted@513" or "chords(rays=100000)".
   std::string id;
@@ -46,8 +58,8 @@ struct RaySet {
   std::string hash() const;
 };
 
-/// The rays in another precision. A ray of `float` that starts on a surface starts a few float ulps later than
-/// its double, because its rounded origin lies that far off the surface.
+/// The rays in another precision. A ray of `float` that starts on a surface starts a few float ulps later
+/// than its double, because its rounded origin lies that far off the surface.
 template <class Real>
 std::vector<Ray<Real>> rays_in(const RaySet& set);
 

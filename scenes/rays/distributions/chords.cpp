@@ -1,10 +1,12 @@
 // chords: uniform random lines through the scene's bounding sphere (Cauchy-Crofton measure)
 //
-// Purpose    The assumption behind equations (2) and (3): for these rays, and only for these, the probability to hit a
+// Purpose    The assumption behind equations (2) and (3): for these rays, and only for these, the probability
+// to hit a
 //            convex volume inside another is the ratio of their surface areas.
-// Rules      A direction uniform on the sphere, a point uniform on the disc across it; the line enters the sphere
-//            there. Four numbers a line, taken from a randomly shifted additive recurrence (generalised golden ratio),
-//            so that averages over chords converge faster than over independent lines.
+// Rules      A direction uniform on the sphere, a point uniform on the disc across it; the line enters the
+// sphere
+//            there. Four numbers a line, taken from a randomly shifted additive recurrence (generalised
+//            golden ratio), so that averages over chords converge faster than over independent lines.
 
 #include <numbers>
 #include <random>
@@ -48,10 +50,10 @@ RaySet generate(const RayRequest& request) {
   for (double& s : shift) s = std::uniform_real_distribution<double>()(generator);
 
   RaySet set;
-  set.distribution = "chords";
   set.closest_rays = static_cast<std::size_t>(request.arguments.integer("rays"));
   set.rays.reserve(set.closest_rays);
-  for (std::size_t i = 0; i < set.closest_rays; ++i) set.rays.push_back(chord(sequence_point(i, shift), centre, radius));
+  for (std::size_t i = 0; i < set.closest_rays; ++i)
+    set.rays.push_back(chord(sequence_point(i, shift), centre, radius));
   set.origins.assign(set.rays.size(), {.kind = RayKind::chord});
   return set;
 }
