@@ -21,6 +21,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "accel/core/define_technique.h"
+#include "accel/parts/branch.h"
 #include "accel/parts/lanes.h"
 #include "accel/parts/sah_split.h"
 
@@ -35,8 +36,8 @@ constexpr int kStackSize = kBalancedDepth + 32;
 
 /// A child of an interior node: a leaf with objects [first, first + count), or the interior node `first`.
 struct ChildReference {
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
+  std::uint32_t first;
+  std::uint32_t count;
 
   bool leaf() const { return count > 0; }
 };
@@ -51,7 +52,7 @@ struct alignas(64) PairNode {
 struct SahConfig {
   bool sweep = true;
   std::size_t max_objects = 4;
-  double traversal_cost = 0.5;
+  double traversal_cost = 1;
 };
 
 /// Builds the nodes over a range of objects that it reorders. A range of m objects owns the m - 1 node
@@ -202,7 +203,7 @@ class BvhSah {
             .parameters = {choice_parameter("split", "sweep", {"sweep", "binned"},
                                             "how ranges of at most 256 objects are split"),
                            integer_parameter("max_objects", 4, 1, 64, "objects a leaf may hold at the most"),
-                           real_parameter("traversal_cost", 0.5, 0, 100,
+                           real_parameter("traversal_cost", 1, 0, 100,
                                           "cost of testing a pair of volumes, in ray-object tests")}};
   }
   static Config configure(const Arguments& arguments) {
@@ -253,21 +254,36 @@ class BvhSah {
         for (std::uint32_t i = 0; i < current.count; ++i)
           if (leaf(current.first + i)) return;
       } else {
-        // Test both children's volumes and enter the nearer of those that are hit.
+        // Test both children's volumes and enter the nearer of those that are hit; meanwhile fetch both
+        // children.
         const PairNode<Real>& node = nodes_[current.first];
+        __builtin_prefetch(nodes_.data() + node.child[0].first);
+        __builtin_prefetch(nodes_.data() + node.child[1].first);
         count.step(), count.volume_tests(2);
         const Real reach = leaf.reach();
         const Lanes<Real> inside =
             crossings.inside(node.boxes, Lanes<Real>{ray.t_min, ray.t_min, -reach, -reach});
         const bool hits_first = inside[0] <= -inside[2], hits_second = inside[1] <= -inside[3];
         if (hits_first && hits_second) {
-          const int near = inside[1] < inside[0];
-          stack[postponed++] = {node.child[1 - near], near ? inside[0] : inside[1]};
-          current = node.child[near];
+          if (inside[1] < inside[0]) {
+            keep_branch();
+            stack[postponed++] = {node.child[0], inside[0]};
+            current = node.child[1];
+          } else {
+            keep_branch();
+            stack[postponed++] = {node.child[1], inside[1]};
+            current = node.child[0];
+          }
           continue;
         }
-        if (hits_first || hits_second) {
-          current = node.child[hits_second];
+        if (hits_first) {
+          keep_branch();
+          current = node.child[0];
+          continue;
+        }
+        if (hits_second) {
+          keep_branch();
+          current = node.child[1];
           continue;
         }
       }
@@ -321,7 +337,7 @@ class BvhSah {
 
   std::vector<PairNode<Real>> nodes_;
   std::vector<std::uint32_t> order_;
-  ChildReference root_;
+  ChildReference root_{};
   Box<Real> bounds_;
 };
 

@@ -39,20 +39,14 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
 
   void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
                EngineScratch& scratch) const override {
-    with_test([&](const auto& test) {
-      auto& own = static_cast<Scratch&>(scratch).technique;
-      for (std::size_t i = 0; i < rays.size(); ++i)
-        hits[i] = closest_hit(technique_, test, name(), rays[i], own);
-    });
+    auto& own = static_cast<Scratch&>(scratch).technique;
+    with_test([&](const auto& test) { closest_of_all(test, rays, hits, own); });
   }
 
   void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked,
            EngineScratch& scratch) const override {
-    with_test([&](const auto& test) {
-      auto& own = static_cast<Scratch&>(scratch).technique;
-      for (std::size_t i = 0; i < rays.size(); ++i)
-        blocked[i] = any_hit(technique_, test, name(), rays[i], own);
-    });
+    auto& own = static_cast<Scratch&>(scratch).technique;
+    with_test([&](const auto& test) { any_of_all(test, rays, blocked, own); });
   }
 
   CountedWork count(Query query, std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
@@ -104,10 +98,26 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
       return {};
   }
 
+  /// The timed loops: everything below them is one function to the compiler.
+  template <class Test>
+  [[gnu::flatten, gnu::noinline]] void closest_of_all(const Test& test, std::span<const Ray<Real>> rays,
+                                                      std::span<Hit<Real>> hits,
+                                                      typename A::Scratch& scratch) const {
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      hits[i] = closest_hit(technique_, test, name(), rays[i], scratch);
+  }
+  template <class Test>
+  [[gnu::flatten, gnu::noinline]] void any_of_all(const Test& test, std::span<const Ray<Real>> rays,
+                                                  std::span<std::uint8_t> blocked,
+                                                  typename A::Scratch& scratch) const {
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      blocked[i] = any_hit(technique_, test, name(), rays[i], scratch);
+  }
+
   /// Call `function` with the cheapest ray-object test that serves the scene's kinds of objects.
   template <class Function>
   void with_test(const Function& function) const {
-    if (geometry_->triangles_only())
+    if (geometry_->mostly_triangles())
       function(ObjectTest<Real, true>{*geometry_});
     else
       function(ObjectTest<Real, false>{*geometry_});

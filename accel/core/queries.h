@@ -6,13 +6,14 @@
 
 namespace rayshoot {
 
-/// The objects in the order in which a technique hands them out. `TrianglesOnly` leaves out all other kinds.
-template <class Real, bool TrianglesOnly>
+/// The objects in the order in which a technique hands them out. `MostlyTriangles` keeps the code for other
+/// kinds out of the way.
+template <class Real, bool MostlyTriangles>
 struct ObjectTest {
   const Geometry<Real>& geometry;
 
   Real operator()(std::uint32_t position, const Ray<Real>& ray) const {
-    if constexpr (TrianglesOnly)
+    if constexpr (MostlyTriangles)
       return geometry.triangle_hit_distance(position, ray);
     else
       return geometry.hit_distance(position, ray);

@@ -54,7 +54,8 @@ Cone<Real> rounded(const Cone<double>& cone) {
 }  // namespace
 
 template <class Real>
-Geometry<Real>::Geometry(const Scene& scene, ConeSides cone_sides) : cone_sides_(cone_sides) {
+Geometry<Real>::Geometry(const Scene& scene, ConeSides cone_sides)
+    : mostly_triangles_(8 * scene.triangles.size() >= 7 * scene.objects.size()), cone_sides_(cone_sides) {
   references_.reserve(scene.objects.size());
   scene_objects_.reserve(scene.objects.size());
   triangles_.reserve(scene.triangles.size());
@@ -69,9 +70,14 @@ template <class Real>
 template <class Object>
 void Geometry<Real>::append(ObjectKind kind, std::vector<Object>& objects, const Object& object,
                             std::uint32_t scene_object) {
-  references_.push_back(static_cast<std::uint32_t>(kind) << kIndexBits | static_cast<std::uint32_t>(objects.size()));
+  references_.push_back(static_cast<std::uint32_t>(kind) << kIndexBits |
+                        static_cast<std::uint32_t>(objects.size()));
   scene_objects_.push_back(scene_object);
   objects.push_back(object);
+  if (kind == ObjectKind::triangle) return;
+  ++others_;
+  constexpr Real nan = std::numeric_limits<Real>::quiet_NaN();
+  if (mostly_triangles_) triangles_.push_back({{nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}});
 }
 
 /// Append one object of the scene unless it is unusable; returns the reason in that case.
@@ -86,7 +92,8 @@ std::string Geometry<Real>::try_append(const Scene& scene, std::uint32_t scene_o
   switch (entry.kind) {
     case ObjectKind::triangle: {
       const auto& [a, b, c] = scene.triangles[entry.index];
-      return append_if_usable(triangles_, entry.kind, Triangle<Real>{Vec3<Real>(a), Vec3<Real>(b), Vec3<Real>(c)},
+      return append_if_usable(triangles_, entry.kind,
+                              Triangle<Real>{Vec3<Real>(a), Vec3<Real>(b), Vec3<Real>(c)},
                               unusable<Real>({a, b, c}));
     }
     case ObjectKind::sphere: {
@@ -96,10 +103,12 @@ std::string Geometry<Real>::try_append(const Scene& scene, std::uint32_t scene_o
     }
     case ObjectKind::cone: {
       const Cone<double>& cone = scene.cones[entry.index];
-      return append_if_usable(cones_, entry.kind, rounded<Real>(cone),
-                              unusable<Real>({cone.base, cone.apex, {cone.base_radius, cone.apex_radius, 0}}));
+      return append_if_usable(
+          cones_, entry.kind, rounded<Real>(cone),
+          unusable<Real>({cone.base, cone.apex, {cone.base_radius, cone.apex_radius, 0}}));
     }
-    case ObjectKind::polygon: break;
+    case ObjectKind::polygon:
+      break;
   }
 
   const VertexRange& range = scene.polygons[entry.index];
@@ -130,10 +139,14 @@ template <class Real>
 bool Geometry<Real>::overlaps(std::uint32_t object, const Box<Real>& box) const {
   if (!bounds(object).overlaps(box)) return false;
   switch (kind(object)) {
-    case ObjectKind::triangle: return surface_overlaps(triangle(object), box);
-    case ObjectKind::polygon: return surface_overlaps(polygon(object), polygon_vertices(object), box);
-    case ObjectKind::sphere: return surface_overlaps(sphere(object), box);
-    case ObjectKind::cone: return surface_overlaps(cone(object), box);
+    case ObjectKind::triangle:
+      return surface_overlaps(triangle(object), box);
+    case ObjectKind::polygon:
+      return surface_overlaps(polygon(object), polygon_vertices(object), box);
+    case ObjectKind::sphere:
+      return surface_overlaps(sphere(object), box);
+    case ObjectKind::cone:
+      return surface_overlaps(cone(object), box);
   }
   return false;
 }
@@ -141,8 +154,8 @@ bool Geometry<Real>::overlaps(std::uint32_t object, const Box<Real>& box) const 
 template <class Real>
 std::size_t Geometry<Real>::bytes() const {
   const auto size_of = [](const auto& objects) { return objects.size() * sizeof(objects[0]); };
-  return size_of(references_) + size_of(scene_objects_) + size_of(triangles_) + size_of(spheres_) + size_of(cones_) +
-         size_of(polygons_) + size_of(vertices_);
+  return size_of(references_) + size_of(scene_objects_) + size_of(triangles_) + size_of(spheres_) +
+         size_of(cones_) + size_of(polygons_) + size_of(vertices_);
 }
 
 template <class Real>
@@ -151,16 +164,25 @@ Geometry<Real> Geometry<Real>::arranged(std::span<const std::uint32_t> order) co
   result.vertices_ = vertices_;
   result.bounds_ = bounds_;
   result.cone_sides_ = cone_sides_;
+  result.mostly_triangles_ = mostly_triangles_;
   result.references_.reserve(order.size());
   result.scene_objects_.reserve(order.size());
   result.triangles_.reserve(triangles_.size());
   for (const std::uint32_t object : order) {
     const std::uint32_t origin = scene_objects_[object];
     switch (kind(object)) {
-      case ObjectKind::triangle: result.append(kind(object), result.triangles_, triangle(object), origin); break;
-      case ObjectKind::polygon: result.append(kind(object), result.polygons_, polygon(object), origin); break;
-      case ObjectKind::sphere: result.append(kind(object), result.spheres_, sphere(object), origin); break;
-      case ObjectKind::cone: result.append(kind(object), result.cones_, cone(object), origin); break;
+      case ObjectKind::triangle:
+        result.append(kind(object), result.triangles_, triangle(object), origin);
+        break;
+      case ObjectKind::polygon:
+        result.append(kind(object), result.polygons_, polygon(object), origin);
+        break;
+      case ObjectKind::sphere:
+        result.append(kind(object), result.spheres_, sphere(object), origin);
+        break;
+      case ObjectKind::cone:
+        result.append(kind(object), result.cones_, cone(object), origin);
+        break;
     }
   }
   return result;

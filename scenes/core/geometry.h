@@ -18,21 +18,27 @@ struct SetAside {
   std::string reason;
 };
 
-/// A scene's objects compiled for tracing in one precision. Objects that are not finite, out of range or without
-/// area are set aside; the others are numbered 0 to size()-1 in scene order. Immutable.
+/// A scene's objects compiled for tracing in one precision. Objects that are not finite, out of range or
+/// without area are set aside; the others are numbered 0 to size()-1 in scene order. Immutable.
 template <class Real>
 class Geometry {
  public:
   explicit Geometry(const Scene& scene, ConeSides cone_sides = ConeSides::both);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(references_.size()); }
-  bool triangles_only() const { return triangles_.size() == references_.size(); }
+  bool triangles_only() const { return mostly_triangles_ && others_ == 0; }
+  /// Whether nearly all objects are triangles: these can then be tested without looking up what kind an
+  /// object is.
+  bool mostly_triangles() const { return mostly_triangles_; }
 
   /// The ray-object test: the nearest distance in (t_min, t_max] at which the ray meets `object`, or `kMiss`.
   Real hit_distance(std::uint32_t object, const Ray<Real>& ray) const;
-  /// The same where `triangles_only()`: no other kind is looked at.
+  /// The same where `mostly_triangles()`: the code for other kinds is kept out of the way.
   Real triangle_hit_distance(std::uint32_t object, const Ray<Real>& ray) const {
-    return rayshoot::hit_distance(triangles_[object], ray);
+    const Triangle<Real>& triangle = triangles_[object];
+    if (std::isnan(triangle.a.x)) [[unlikely]]
+      return other_hit_distance(object, ray);
+    return rayshoot::hit_distance(triangle, ray);
   }
 
   /// Conservative bounds of an object: every hit distance lies in the ray's interval inside them.
@@ -42,7 +48,9 @@ class Geometry {
   /// Whether the object's surface may reach the closed box; exact for triangles, convex polygons and spheres.
   bool overlaps(std::uint32_t object, const Box<Real>& box) const;
 
-  ObjectKind kind(std::uint32_t object) const { return static_cast<ObjectKind>(references_[object] >> kIndexBits); }
+  ObjectKind kind(std::uint32_t object) const {
+    return static_cast<ObjectKind>(references_[object] >> kIndexBits);
+  }
   /// Position of the object among those of its kind.
   std::uint32_t index(std::uint32_t object) const { return references_[object] & kIndexMask; }
   /// The object's number in the scene it came from.
@@ -58,8 +66,8 @@ class Geometry {
   const std::vector<SetAside>& set_aside() const { return set_aside_; }
   std::size_t bytes() const;
 
-  /// The same objects in another order: object i of the result is object `order[i]` of this geometry. Objects of
-  /// a kind lie in memory in that order.
+  /// The same objects in another order: object i of the result is object `order[i]` of this geometry. Objects
+  /// of a kind lie in memory in that order.
   Geometry arranged(std::span<const std::uint32_t> order) const;
 
  private:
@@ -67,13 +75,21 @@ class Geometry {
   static constexpr std::uint32_t kIndexMask = (1u << kIndexBits) - 1;
 
   Geometry() = default;
+  [[gnu::noinline, gnu::cold]] Real other_hit_distance(std::uint32_t object, const Ray<Real>& ray) const {
+    return hit_distance(object, ray);
+  }
   template <class Object>
-  void append(ObjectKind kind, std::vector<Object>& objects, const Object& object, std::uint32_t scene_object);
+  void append(ObjectKind kind, std::vector<Object>& objects, const Object& object,
+              std::uint32_t scene_object);
   std::string try_append(const Scene& scene, std::uint32_t scene_object);
 
   std::vector<std::uint32_t> references_;
   std::vector<std::uint32_t> scene_objects_;
+  /// By index, and where `mostly_triangles_` is set by object: other objects then have a slot of
+  /// not-a-numbers.
   std::vector<Triangle<Real>> triangles_;
+  bool mostly_triangles_ = false;
+  std::uint32_t others_ = 0;
   std::vector<Sphere<Real>> spheres_;
   std::vector<Cone<Real>> cones_;
   std::vector<Polygon<Real>> polygons_;
@@ -92,10 +108,14 @@ inline std::span<const Vec3<Real>> Geometry<Real>::polygon_vertices(std::uint32_
 template <class Real>
 inline Real Geometry<Real>::hit_distance(std::uint32_t object, const Ray<Real>& ray) const {
   switch (kind(object)) {
-    case ObjectKind::triangle: return rayshoot::hit_distance(triangle(object), ray);
-    case ObjectKind::polygon: return rayshoot::hit_distance(polygon(object), polygon_vertices(object), ray);
-    case ObjectKind::sphere: return rayshoot::hit_distance(sphere(object), ray);
-    case ObjectKind::cone: return rayshoot::hit_distance(cone(object), ray, cone_sides_ == ConeSides::outside);
+    case ObjectKind::triangle:
+      return rayshoot::hit_distance(triangle(object), ray);
+    case ObjectKind::polygon:
+      return rayshoot::hit_distance(polygon(object), polygon_vertices(object), ray);
+    case ObjectKind::sphere:
+      return rayshoot::hit_distance(sphere(object), ray);
+    case ObjectKind::cone:
+      return rayshoot::hit_distance(cone(object), ray, cone_sides_ == ConeSides::outside);
   }
   return kMiss<Real>;
 }
@@ -103,10 +123,14 @@ inline Real Geometry<Real>::hit_distance(std::uint32_t object, const Ray<Real>& 
 template <class Real>
 inline Box<Real> Geometry<Real>::bounds(std::uint32_t object) const {
   switch (kind(object)) {
-    case ObjectKind::triangle: return rayshoot::bounds(triangle(object));
-    case ObjectKind::polygon: return rayshoot::bounds(polygon(object));
-    case ObjectKind::sphere: return rayshoot::bounds(sphere(object));
-    case ObjectKind::cone: return rayshoot::bounds(cone(object));
+    case ObjectKind::triangle:
+      return rayshoot::bounds(triangle(object));
+    case ObjectKind::polygon:
+      return rayshoot::bounds(polygon(object));
+    case ObjectKind::sphere:
+      return rayshoot::bounds(sphere(object));
+    case ObjectKind::cone:
+      return rayshoot::bounds(cone(object));
   }
   return {};
 }
