@@ -13,20 +13,24 @@ std::string RaySet::hash() const {
 
 namespace {
 
-/// How far along a ray its rounded origin may lie off the surface it starts on: 32 ulps of its largest
-/// coordinate.
+/// How far along a ray a surface met under that cosine may have moved when its point, the ray's direction and
+/// the objects were rounded: by 4 ulps of the largest coordinate across. Below a thousandth the cosine counts
+/// as that, lest a ray in the surface sees nothing at all.
 template <class Real>
-Real rounding_of_origin(const Ray<Real>& ray) {
-  const Real size = max_abs(ray.origin), speed = length(ray.direction);
-  return speed > 0 ? 32 * std::numeric_limits<Real>::epsilon() * size / speed : 0;
+Real rounding_along(const Vec3d& origin, const Vec3d& target, float cosine) {
+  const double size = std::max(max_abs(origin), max_abs(target));
+  return static_cast<Real>(4 * std::numeric_limits<Real>::epsilon() * size / std::max(cosine, 1e-3f));
 }
 
 template <class Real>
-Ray<Real> rounded(const Ray<double>& ray, bool starts_on_surface) {
+Ray<Real> rounded(const Ray<double>& ray, const RayOrigin& origin) {
   if constexpr (std::is_same_v<Real, double>) return ray;
   Ray<Real> result{Vec3<Real>(ray.origin), static_cast<Real>(ray.t_min), Vec3<Real>(ray.direction)};
   if (ray.t_max < std::numeric_limits<Real>::max()) result.t_max = static_cast<Real>(ray.t_max);
-  if (starts_on_surface) result.t_min = std::max(result.t_min, rounding_of_origin(result));
+  if (origin.source_object != kNoObject)
+    result.t_min = std::max(result.t_min, rounding_along<Real>(ray.origin, ray.origin, origin.cosine));
+  if (origin.kind == RayKind::light)
+    result.t_max -= rounding_along<Real>(ray.origin, ray.at(ray.t_max), origin.cosine);
   return result;
 }
 
@@ -37,7 +41,7 @@ std::vector<Ray<Real>> rays_in(const RaySet& set) {
   std::vector<Ray<Real>> rays;
   rays.reserve(set.rays.size());
   for (std::size_t i = 0; i < set.rays.size(); ++i)
-    rays.push_back(rounded<Real>(set.rays[i], set.origins[i].source_object != kNoObject));
+    rays.push_back(rounded<Real>(set.rays[i], set.origins[i]));
   return rays;
 }
 

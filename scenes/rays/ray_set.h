@@ -31,6 +31,8 @@ struct RayOrigin {
   std::int32_t light = -1;
   /// The scene object the ray starts on, or `kNoObject`.
   std::uint32_t source_object = kNoObject;
+  /// Cosine between the ray and the surface it starts on, or a light ray ends before; 0 to 1.
+  float cosine = 1;
 };
 
 /// Numbers of rays and hits by kind, in the terms of the SPD tables; zero where a distribution has no such
@@ -58,8 +60,9 @@ struct RaySet {
   std::string hash() const;
 };
 
-/// The rays in another precision. A ray of `float` that starts on a surface starts a few float ulps later
-/// than its double, because its rounded origin lies that far off the surface.
+/// The rays in another precision. Rounded, a point on a surface lies a few ulps off it. So a `float` ray
+/// begins to see where it has left its surface by that much, and a light ray ends as much before its own: a
+/// grazing one earlier.
 template <class Real>
 std::vector<Ray<Real>> rays_in(const RaySet& set);
 

@@ -10,6 +10,15 @@ void RayBatch::add(const Ray<double>& ray, const RayOrigin& origin, std::uint32_
   parents.push_back(parent);
 }
 
+namespace {
+
+/// The normal on the side that a direction comes from.
+Vec3d facing(const Vec3d& normal, const Vec3d& direction) {
+  return dot(normal, direction) > 0 ? -normal : normal;
+}
+
+}  // namespace
+
 std::vector<Encounter> encounters_of(const Scene& scene, const Tracer& tracer, const RayTreeRules& rules,
                                      std::span<const Ray<double>> rays) {
   std::vector<Hit<double>> hits(rays.size());
@@ -21,8 +30,8 @@ std::vector<Encounter> encounters_of(const Scene& scene, const Tracer& tracer, c
     met.object = hits[i].object;
     met.point = rays[i].at(hits[i].t);
     met.outward = outward_normal(rules, scene, met.object, met.point);
-    const bool from_behind = dot(met.outward, rays[i].direction) > 0;
-    met.normal = rules.normals_face_the_ray && from_behind ? -met.outward : met.outward;
+    met.normal = rules.normals_face_the_ray ? facing(met.outward, rays[i].direction) : met.outward;
+    met.flat = facing(surface_normal(scene, met.object, met.point, false), rays[i].direction);
   }
   return encounters;
 }
@@ -46,7 +55,7 @@ class Caster {
       const double distance = length(to_light);
       Ray<double> ray = ray_from(met.point, to_light * (1 / distance));
       ray.t_max = distance;
-      wave.shadow_rays.add(ray, origin(wave, parent, RayKind::shadow, static_cast<std::int32_t>(light)),
+      wave.shadow_rays.add(ray, origin(wave, parent, RayKind::shadow, ray, static_cast<std::int32_t>(light)),
                            parent);
     }
   }
@@ -56,13 +65,14 @@ class Caster {
     const Encounter& met = wave.encounters[parent];
     const Material& material = scene_.materials[scene_.objects[met.object].material];
     const Vec3d& incoming = wave.rays.rays[parent].direction;
-    if (material.reflects())
-      next.add(ray_from(met.point, reflected(incoming, met.outward)),
-               origin(wave, parent, RayKind::reflected), parent);
+    const auto cast = [&](RayKind kind, const Vec3d& direction) {
+      const Ray<double> ray = ray_from(met.point, direction);
+      next.add(ray, origin(wave, parent, kind, ray), parent);
+    };
+    if (material.reflects()) cast(RayKind::reflected, reflected(incoming, met.outward));
     if (!material.refracts()) return;
-    const auto onward = refracted(incoming, met.outward, material.index_of_refraction);
-    if (onward)
-      next.add(ray_from(met.point, *onward), origin(wave, parent, RayKind::refracted), parent);
+    if (const auto onward = refracted(incoming, met.outward, material.index_of_refraction))
+      cast(RayKind::refracted, *onward);
     else
       ++wave.total_internal_reflections;
   }
@@ -72,9 +82,12 @@ class Caster {
     return {.origin = point, .t_min = first_distance(rules_, diagonal_, point), .direction = direction};
   }
 
-  static RayOrigin origin(const Wave& wave, std::uint32_t parent, RayKind kind, std::int32_t light = -1) {
+  static RayOrigin origin(const Wave& wave, std::uint32_t parent, RayKind kind, const Ray<double>& ray,
+                          std::int32_t light = -1) {
+    const Encounter& met = wave.encounters[parent];
     const int generation = wave.generation + (kind == RayKind::shadow ? 0 : 1);
-    return {kind, static_cast<std::uint8_t>(generation), light, wave.encounters[parent].object};
+    const auto cosine = static_cast<float>(std::abs(dot(met.flat, ray.direction)));
+    return {kind, static_cast<std::uint8_t>(generation), light, met.object, cosine};
   }
 
   const Scene& scene_;

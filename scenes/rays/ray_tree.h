@@ -21,8 +21,9 @@ struct RayBatch {
 struct Encounter {
   std::uint32_t object = kNoObject;  ///< `kNoObject` where the ray met nothing
   Vec3d point;
-  Vec3d outward;  ///< unit normal of the surface
-  Vec3d normal;   ///< the normal on the side that is lit, by the rules
+  Vec3d outward;  ///< unit normal, smooth where the object has vertex normals
+  Vec3d normal;   ///< the same on the side that is lit, by the rules
+  Vec3d flat;     ///< unit normal of the surface itself, on the side from which it was met
 };
 
 /// One generation of a ray tree: its rays in the order of their parents, what they met, and the shadow rays

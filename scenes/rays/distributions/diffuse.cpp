@@ -36,12 +36,6 @@ Vec3d cosine_direction(const Vec3d& normal, double u, double v) {
   return normalized(e1 * (r * std::cos(turn)) + e2 * (r * std::sin(turn)) + normal * std::sqrt(1 - u));
 }
 
-/// The normal of the surface itself, so that no ray starts into it, on the side that the eye sees.
-Vec3d seen_normal(const Scene& scene, const Encounter& met) {
-  const Vec3d normal = surface_normal(scene, met.object, met.point, false);
-  return dot(normal, scene.view.from - met.point) >= 0 ? normal : -normal;
-}
-
 RaySet generate(const RayRequest& request) {
   const std::vector<Encounter> points = primary_hits(request);
   const RandomNumbers random(request.seed);
@@ -53,11 +47,13 @@ RaySet generate(const RayRequest& request) {
   set.rays.reserve(set.closest_rays), set.origins.reserve(set.closest_rays);
   for (std::size_t ray = 0; ray < set.closest_rays; ++ray) {
     const Encounter& from = points[order[ray % points.size()]];
-    set.rays.push_back({.origin = from.point,
-                        .t_min = first_distance(ray_tree_rules("clean"), diagonal, from.point),
-                        .direction = cosine_direction(seen_normal(request.scene, from),
-                                                      random.uniform(ray, 0), random.uniform(ray, 1))});
-    set.origins.push_back({.kind = RayKind::diffuse, .generation = 2, .source_object = from.object});
+    const Vec3d direction = cosine_direction(from.flat, random.uniform(ray, 0), random.uniform(ray, 1));
+    const double start = first_distance(ray_tree_rules("clean"), diagonal, from.point);
+    set.rays.push_back({.origin = from.point, .t_min = start, .direction = direction});
+    set.origins.push_back({.kind = RayKind::diffuse,
+                           .generation = 2,
+                           .source_object = from.object,
+                           .cosine = static_cast<float>(dot(from.flat, direction))});
   }
   return set;
 }

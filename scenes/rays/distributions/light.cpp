@@ -18,7 +18,7 @@ namespace {
 
 struct LitPoint {
   std::int32_t light;
-  Vec3d point;
+  Vec3d point, normal;
 };
 
 std::vector<LitPoint> points_facing_lights(const RayRequest& request) {
@@ -27,7 +27,7 @@ std::vector<LitPoint> points_facing_lights(const RayRequest& request) {
   for (std::size_t light = 0; light < request.scene.lights.size(); ++light)
     for (const Encounter& met : points)
       if (dot(met.normal, request.scene.lights[light].position - met.point) > 0)
-        lit.push_back({static_cast<std::int32_t>(light), met.point});
+        lit.push_back({static_cast<std::int32_t>(light), met.point, met.flat});
   return lit;
 }
 
@@ -53,8 +53,10 @@ RaySet generate(const RayRequest& request) {
     const double position = start + stride * static_cast<double>(k);
     if (position >= static_cast<double>(points.size())) break;
     const LitPoint& lit = points[static_cast<std::size_t>(position)];
-    set.rays.push_back(ray_to(lit, request.scene, diagonal));
-    set.origins.push_back({.kind = RayKind::light, .light = lit.light});
+    const Ray<double> ray = ray_to(lit, request.scene, diagonal);
+    const auto cosine = static_cast<float>(std::abs(dot(lit.normal, ray.direction)));
+    set.rays.push_back(ray);
+    set.origins.push_back({.kind = RayKind::light, .light = lit.light, .cosine = cosine});
   }
   return set;
 }
