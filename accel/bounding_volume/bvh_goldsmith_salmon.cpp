@@ -229,6 +229,7 @@ class BvhGoldsmithSalmon {
   /// Test all children of a node that is hit, then go through those hit from near to far.
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch& scratch, Counter count, L& leaf) const {
+    if (order_.empty()) return;
     const Crossings<Real> crossings(ray);
     const auto entered = [&](const Box<Real>& box) -> std::optional<Real> {
       count.volume_tests();

@@ -235,6 +235,7 @@ class BvhSah {
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch&, Counter count, L& leaf) const {
     // Leave out rays that miss everything.
+    if (order_.empty()) return;
     count.volume_tests();
     const Interval<Real> whole = Crossings<Real>(ray).inside(bounds_);
     if (!(std::max(whole.enter, ray.t_min) <= std::min(whole.exit, ray.t_max))) return;

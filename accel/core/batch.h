@@ -2,6 +2,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -35,6 +36,8 @@ void for_batches(std::size_t count, int threads, const Body& body) {
       body(first, std::min(count, first + kRaysPerBatch));
     return;
   }
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
   tbb::task_arena(threads).execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, kRaysPerBatch),
