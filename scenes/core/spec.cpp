@@ -44,7 +44,9 @@ Arguments::Value parse_value(const Parameter& parameter, const std::string& text
     return InputError(fmt::format("{}: {}={} is not accepted; {} takes {}", owner, parameter.name, text,
                                   parameter.name, parameter.range()));
   };
-  const auto within = [&](double number) { return number >= parameter.minimum && number <= parameter.maximum; };
+  const auto within = [&](double number) {
+    return number >= parameter.minimum && number <= parameter.maximum;
+  };
   switch (parameter.type) {
     case Parameter::Type::integer: {
       long long number = 0;
@@ -64,7 +66,8 @@ Arguments::Value parse_value(const Parameter& parameter, const std::string& text
       if (std::find(parameter.choices.begin(), parameter.choices.end(), text) == parameter.choices.end())
         throw refuse();
       return text;
-    case Parameter::Type::text: return text;
+    case Parameter::Type::text:
+      return text;
   }
   throw refuse();
 }
@@ -74,33 +77,53 @@ Arguments::Value parse_value(const Parameter& parameter, const std::string& text
 std::string Parameter::range() const {
   switch (type) {
     case Type::integer:
-    case Type::real: return fmt::format("{:g} to {:g}", minimum, maximum);
-    case Type::boolean: return "on|off";
-    case Type::choice: return fmt::format("{}", fmt::join(choices, "|"));
-    case Type::text: return "text";
+    case Type::real:
+      return fmt::format("{:g} to {:g}", minimum, maximum);
+    case Type::boolean:
+      return "on|off";
+    case Type::choice:
+      return fmt::format("{}", fmt::join(choices, "|"));
+    case Type::text:
+      return "text";
   }
   return {};
 }
 
 Parameter integer_parameter(std::string name, long long default_value, double minimum, double maximum,
                             std::string description) {
-  return {std::move(name), Parameter::Type::integer, std::to_string(default_value), std::move(description), minimum,
-          maximum, {}};
+  return {std::move(name),
+          Parameter::Type::integer,
+          std::to_string(default_value),
+          std::move(description),
+          minimum,
+          maximum,
+          {}};
 }
 
 Parameter real_parameter(std::string name, double default_value, double minimum, double maximum,
                          std::string description) {
-  return {std::move(name), Parameter::Type::real, fmt::format("{}", default_value), std::move(description), minimum,
-          maximum, {}};
+  return {std::move(name),
+          Parameter::Type::real,
+          fmt::format("{}", default_value),
+          std::move(description),
+          minimum,
+          maximum,
+          {}};
 }
 
 Parameter boolean_parameter(std::string name, bool default_value, std::string description) {
-  return {std::move(name), Parameter::Type::boolean, default_value ? "on" : "off", std::move(description), 0, 0, {}};
+  return {std::move(name),
+          Parameter::Type::boolean,
+          default_value ? "on" : "off",
+          std::move(description),
+          0,
+          0,
+          {}};
 }
 
 Parameter choice_parameter(std::string name, std::string default_value, std::vector<std::string> choices,
                            std::string description) {
-  return {std::move(name), Parameter::Type::choice, std::move(default_value), std::move(description), 0, 0,
+  return {std::move(name),   Parameter::Type::choice, std::move(default_value), std::move(description), 0, 0,
           std::move(choices)};
 }
 
@@ -110,27 +133,23 @@ Parameter text_parameter(std::string name, std::string default_value, std::strin
 
 Spec parse_spec(std::string_view text) {
   const auto refuse = [&](const std::string& why) {
-    return InputError(
-        fmt::format("'{}' is not a specification ({}); write name, name:size, name(key=value,...) or name:size/form",
-                    text, why));
+    return InputError(fmt::format(
+        "'{}' is not a specification ({}); write name, name:size, name(key=value,...) or name:size/form",
+        text, why));
   };
   Spec spec;
-  std::string_view rest = text;
+  std::string rest(text);
 
-  // Split off the form behind the last slash that is outside parentheses.
-  const auto slash = rest.rfind('/');
-  if (slash != std::string_view::npos && rest.find(')', slash) == std::string_view::npos) {
-    spec.form = trimmed(rest.substr(slash + 1));
-    if (spec.form.empty()) throw refuse("nothing behind the slash");
-    rest = rest.substr(0, slash);
-  }
-
-  // Split off the arguments in parentheses.
+  // Take out the arguments in parentheses, which stand behind the name or behind the form.
   const auto open = rest.find('(');
-  if (open != std::string_view::npos) {
-    if (rest.back() != ')') throw refuse("the parenthesis is not closed");
-    std::string_view list = rest.substr(open + 1, rest.size() - open - 2);
-    rest = rest.substr(0, open);
+  if (open != std::string::npos) {
+    const auto close = rest.rfind(')');
+    if (close == std::string::npos || close < open) throw refuse("the parenthesis is not closed");
+    const std::string arguments = rest.substr(open + 1, close - open - 1);
+    const std::string behind = trimmed(std::string_view(rest).substr(close + 1));
+    if (!behind.empty() && behind[0] != '/') throw refuse(fmt::format("'{}' behind the parenthesis", behind));
+    rest = rest.substr(0, open) + behind;
+    std::string_view list = arguments;
     while (!list.empty()) {
       const auto comma = list.find(',');
       const std::string_view item = list.substr(0, comma);
@@ -143,19 +162,27 @@ Spec parse_spec(std::string_view text) {
     }
   }
 
+  // Split off the form behind the last slash.
+  const auto slash = rest.rfind('/');
+  if (slash != std::string::npos) {
+    spec.form = trimmed(std::string_view(rest).substr(slash + 1));
+    if (spec.form.empty()) throw refuse("nothing behind the slash");
+    rest = rest.substr(0, slash);
+  }
+
   // What is left is a name with an optional size.
   const auto colon = rest.find(':');
-  spec.name = trimmed(rest.substr(0, colon));
-  if (colon != std::string_view::npos) {
-    spec.size = trimmed(rest.substr(colon + 1));
+  spec.name = trimmed(std::string_view(rest).substr(0, colon));
+  if (colon != std::string::npos) {
+    spec.size = trimmed(std::string_view(rest).substr(colon + 1));
     if (spec.size.empty()) throw refuse("nothing behind the colon");
   }
   if (spec.name.empty()) throw refuse("the name is empty");
   return spec;
 }
 
-Arguments::Arguments(const std::vector<Parameter>& parameters, const std::map<std::string, std::string>& given,
-                     const std::string& owner) {
+Arguments::Arguments(const std::vector<Parameter>& parameters,
+                     const std::map<std::string, std::string>& given, const std::string& owner) {
   std::vector<std::string> names;
   for (const Parameter& parameter : parameters) {
     names.push_back(parameter.name);
@@ -170,9 +197,17 @@ Arguments::Arguments(const std::vector<Parameter>& parameters, const std::map<st
 long long Arguments::integer(const std::string& name) const { return std::get<long long>(values_.at(name)); }
 double Arguments::real(const std::string& name) const { return std::get<double>(values_.at(name)); }
 bool Arguments::boolean(const std::string& name) const { return std::get<bool>(values_.at(name)); }
-const std::string& Arguments::text(const std::string& name) const { return std::get<std::string>(values_.at(name)); }
+const std::string& Arguments::text(const std::string& name) const {
+  return std::get<std::string>(values_.at(name));
+}
 
-std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
+std::string text_of(const Arguments::Value& value) {
+  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "on" : "off";
+  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+std::string unknown_name(const std::string& what, const std::string& name,
+                         const std::vector<std::string>& known) {
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
     return edit_distance(name, a) < edit_distance(name, b);
   });

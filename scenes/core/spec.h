@@ -42,7 +42,8 @@ Parameter choice_parameter(std::string name, std::string default_value, std::vec
 /// Free text, checked by whoever reads it.
 Parameter text_parameter(std::string name, std::string default_value, std::string description);
 
-/// A specification `name`, `name:size`, `name(key=value,…)`, each with an optional `/form` behind it.
+/// A specification `name`, `name:size`, `name(key=value,…)`, each with an optional `/form` behind it;
+/// arguments may also stand behind the form.
 struct Spec {
   std::string name;
   std::string size;
@@ -73,7 +74,12 @@ class Arguments {
   std::map<std::string, Value> values_;
 };
 
-/// "unknown WHAT 'name'; known: a, b, c", the nearest by spelling first in a "did you mean" where one is near.
-std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known);
+/// A value as a specification writes it.
+std::string text_of(const Arguments::Value& value);
+
+/// "unknown WHAT 'name'; known: a, b, c", the nearest by spelling first in a "did you mean" where one is
+/// near.
+std::string unknown_name(const std::string& what, const std::string& name,
+                         const std::vector<std::string>& known);
 
 }  // namespace rayshoot

@@ -30,11 +30,6 @@ Spec parse_ray_spec(const std::string& text) {
   return spec;
 }
 
-std::string text_of(const Arguments::Value& value) {
-  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "on" : "off";
-  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
-}
-
 /// What distinguishes rays from others of their distribution: their number, and whatever is not as the
 /// distribution has it by default.
 std::string canonical_id(const RayDistribution& distribution, const Arguments& arguments) {
