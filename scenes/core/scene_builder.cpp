@@ -2,8 +2,6 @@
 
 #include <numbers>
 
-#include "scenes/core/affine.h"
-
 namespace rayshoot {
 
 namespace {
@@ -40,42 +38,50 @@ void SceneBuilder::polygon(std::span<const Vec3d> vertices) {
 void SceneBuilder::polygon(std::span<const Vec3d> vertices, std::span<const Vec3d> normals) {
   polygon(vertices);
   scene_.objects.back().first_normal = static_cast<std::uint32_t>(scene_.vertex_normals.size());
-  for (const Vec3d& normal : normals) scene_.vertex_normals.push_back(normal * normal_scale_);
+  scene_.vertex_normals.insert(scene_.vertex_normals.end(), normals.begin(), normals.end());
 }
 
 void SceneBuilder::sphere(const Vec3d& centre, double radius) {
   if (options_.form == SceneForm::patches) return tessellate_sphere(centre, radius);
   add_object(ObjectKind::sphere, scene_.spheres.size());
-  scene_.spheres.push_back({centre, radius});
+  scene_.spheres.push_back({frame_(centre), scale_ * radius});
 }
 
 void SceneBuilder::cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius) {
-  const Cone<double> cone{base, base_radius, apex, apex_radius};
-  if (options_.form == SceneForm::patches) return tessellate_cone(cone);
+  if (options_.form == SceneForm::patches) return tessellate_cone({base, base_radius, apex, apex_radius});
   add_object(ObjectKind::cone, scene_.cones.size());
-  scene_.cones.push_back(cone);
+  scene_.cones.push_back({frame_(base), scale_ * base_radius, frame_(apex), scale_ * apex_radius});
 }
 
-/// A grid on one face of a cube, blown up to the sphere, serves all six faces: it is turned in place before each.
+void SceneBuilder::placed_patch(const std::array<Vec3d, 3>& vertices, const std::array<Vec3d, 3>& normals) {
+  const auto normal = [&](const Vec3d& n) { return frame_.direction(n) * (1 / (scale_ * scale_)); };
+  patch({frame_(vertices[0]), frame_(vertices[1]), frame_(vertices[2])},
+        {normal(normals[0]), normal(normals[1]), normal(normals[2])});
+}
+
+/// A grid on one face of a cube, blown up to the sphere, serves all six faces: it is turned in place before
+/// each.
 void SceneBuilder::tessellate_sphere(const Vec3d& centre, double radius) {
   const int cells = options_.tessellation;
   std::vector<std::vector<Vec3d>> grid(cells + 1, std::vector<Vec3d>(cells + 1));
   for (int u = 0; u <= cells; ++u)
     for (int v = 0; v <= cells; ++v) {
       const double a = kPi / 4 * (2.0 * u / cells - 1), b = kPi / 4 * (2.0 * v / cells - 1);
-      grid[u][v] = normalized(
-          Vec3d{std::sin(a) * std::cos(b), -std::cos(a) * std::sin(b), std::cos(a) * std::cos(b)});
+      grid[u][v] =
+          normalized(Vec3d{std::sin(a) * std::cos(b), -std::cos(a) * std::sin(b), std::cos(a) * std::cos(b)});
     }
   for (int face = 0; face < 6; ++face) {
     for (auto& row : grid)
       for (Vec3d& p : row)
-        p = face % 3 == 0 ? Vec3d{-p.z, p.y, p.x} : face % 3 == 1 ? Vec3d{-p.y, p.x, p.z} : Vec3d{p.x, -p.z, p.y};
+        p = face % 3 == 0   ? Vec3d{-p.z, p.y, p.x}
+            : face % 3 == 1 ? Vec3d{-p.y, p.x, p.z}
+                            : Vec3d{p.x, -p.z, p.y};
     for (int u = 0; u < cells; ++u)
       for (int v = 0; v < cells; ++v) {
         const Vec3d &q0 = grid[u][v], &q1 = grid[u][v + 1], &q2 = grid[u + 1][v + 1], &q3 = grid[u + 1][v];
         const auto on_sphere = [&](const Vec3d& q) { return centre + q * radius; };
-        patch({on_sphere(q0), on_sphere(q1), on_sphere(q2)}, {q0, q1, q2});
-        patch({on_sphere(q2), on_sphere(q3), on_sphere(q0)}, {q2, q3, q0});
+        placed_patch({on_sphere(q0), on_sphere(q1), on_sphere(q2)}, {q0, q1, q2});
+        placed_patch({on_sphere(q2), on_sphere(q3), on_sphere(q0)}, {q2, q3, q0});
       }
   }
 }
@@ -106,8 +112,8 @@ void SceneBuilder::tessellate_cone(const Cone<double>& cone) {
     const Vec3d apex = cone.apex + around * cone.apex_radius;
     const Vec3d base = cone.base + around * cone.base_radius;
     const Vec3d normal = turn(tilted);
-    patch({apex, previous_apex, previous_base}, {normal, previous_normal, previous_normal});
-    patch({base, apex, previous_base}, {normal, normal, previous_normal});
+    placed_patch({apex, previous_apex, previous_base}, {normal, previous_normal, previous_normal});
+    placed_patch({base, apex, previous_base}, {normal, normal, previous_normal});
     previous_apex = apex, previous_base = base, previous_normal = normal;
   }
 }

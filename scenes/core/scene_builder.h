@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "scenes/core/affine.h"
 #include "scenes/core/scene.h"
 
 namespace rayshoot {
@@ -41,8 +42,10 @@ class SceneBuilder {
   void sphere(const Vec3d& centre, double radius);
   void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius);
 
-  /// Multiply the normals of the patches that follow; only jacks asks for other than 1.
-  void scale_normals(double factor) { normal_scale_ = factor; }
+  /// Spheres and cones that follow are given, and tessellated, in a frame of their own, which `frame` maps
+  /// into the scene: a rotation and translation together with a scaling by `scale`. Vertex normals map by the
+  /// inverse transposed and are not normalised again, so they end up 1/scale long. Only jacks asks for this.
+  void place_in(const Affine& frame, double scale) { frame_ = frame, scale_ = scale; }
   /// Replace the tessellation asked for; only jacks does.
   void override_tessellation(int resolution) { options_.tessellation = resolution; }
 
@@ -50,11 +53,13 @@ class SceneBuilder {
 
  private:
   void add_object(ObjectKind kind, std::size_t index, std::uint32_t first_normal = kNoObject);
+  void placed_patch(const std::array<Vec3d, 3>& vertices, const std::array<Vec3d, 3>& normals);
   void tessellate_sphere(const Vec3d& centre, double radius);
   void tessellate_cone(const Cone<double>& cone);
 
   SceneOptions options_;
-  double normal_scale_ = 1;
+  Affine frame_;
+  double scale_ = 1;
   Scene scene_;
 };
 

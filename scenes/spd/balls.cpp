@@ -1,18 +1,16 @@
 // balls, the sphereflake (Haines 1987)
 //
 // Purpose    Objects of widely varying size that touch one another, over a floor much larger than they are.
-// Size       sum of 9^k spheres for k = 0 to size, and one floor polygon: 1 → 11, 2 → 92, 3 → 821, 4 → 7382, 5 → 66431.
+// Size       sum of 9^k spheres for k = 0 to size, and one floor polygon: 1 → 11, 2 → 92, 3 → 821, 4 → 7382,
+// 5 → 66431.
 
-#include <numbers>
+#include <cmath>
 
-#include "scenes/core/affine.h"
-#include "scenes/core/registry.h"
+#include "scenes/spd/database.h"
 
 namespace rayshoot {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// The nine directions in which a sphere aligned with +z grows children: a trio, three times around the axis.
 std::array<Vec3d, 9> child_directions() {
@@ -22,14 +20,14 @@ std::array<Vec3d, 9> child_directions() {
   std::array<Vec3d, 9> directions;
   for (int turn = 0; turn < 3; ++turn)
     for (int k = 0; k < 3; ++k)
-      directions[3 * turn + k] = rotation({0, 0, 1}, turn * 2 * kPi / 3)(tilt(trio[k]));
+      directions[3 * turn + k] = rotation({0, 0, 1}, turn * 2 * spd::kPi / 3)(tilt(trio[k]));
   return directions;
 }
 
 /// The rotation that carries +z to the unit vector d.
 Affine align_z_with(const Vec3d& d) {
   if (d.z >= 0.9999) return {};
-  if (d.z <= -0.9999) return rotation({0, 1, 0}, kPi);
+  if (d.z <= -0.9999) return rotation({0, 1, 0}, spd::kPi);
   return rotation(normalized(Vec3d{-d.y, d.x, 0}), std::acos(d.z));
 }
 
@@ -45,12 +43,11 @@ void grow(SceneBuilder& builder, const std::array<Vec3d, 9>& directions, const V
 }
 
 void generate(const SceneOptions& options, const Arguments&, SceneBuilder& builder) {
-  builder.background({0.078, 0.361, 0.753});
-  builder.view({.from = {2.1, 1.3, 1.7}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle = 45, .hither = 0.01});
-  for (const Vec3d& light : {Vec3d{4, 3, 2}, Vec3d{1, -4, 4}, Vec3d{-3, 1, 5}}) builder.light(light);
-
-  builder.material({{1, 0.75, 0.33}, 0.8, 0, 100000, 0, 1});
-  builder.polygon(std::array{Vec3d{12, 12, -0.5}, Vec3d{-12, 12, -0.5}, Vec3d{-12, -12, -0.5}, Vec3d{12, -12, -0.5}});
+  spd::open(builder, {.from = {2.1, 1.3, 1.7}, .at = {0, 0, 0}, .up = {0, 0, 1}, .angle = 45, .hither = 0.01},
+            {{4, 3, 2}, {1, -4, 4}, {-3, 1, 5}});
+  builder.material({{1, 0.75, 0.33}, 0.8, 0, spd::kNoHighlight, 0, 1});
+  builder.polygon(
+      std::array{Vec3d{12, 12, -0.5}, Vec3d{-12, 12, -0.5}, Vec3d{-12, -12, -0.5}, Vec3d{12, -12, -0.5}});
   builder.material({{1, 0.9, 0.7}, 0.5, 0.5, shine_from_highlight_angle(37), 0, 1});
   grow(builder, child_directions(), {0, 0, 0}, 0.5, {0, 0, 1}, options.size);
 }
@@ -65,11 +62,12 @@ double object_count(const SceneOptions& options, const Arguments&) {
 const SceneGenerator& scene_balls() {
   static const SceneGenerator generator{.id = "balls",
                                         .title = "Sphereflake",
-                                        .source = "Haines, Standard Procedural Databases, 1987",
+                                        .source = spd::kPaper,
                                         .default_size = 4,
                                         .min_size = 1,
-                                        .purpose = "touching spheres of widely varying size over a large floor; "
-                                                   "1 + sum of 9^k spheres",
+                                        .purpose =
+                                            "touching spheres of widely varying size over a large floor; "
+                                            "1 + sum of 9^k spheres",
                                         .parameters = {},
                                         .object_count = object_count,
                                         .generate = generate};
