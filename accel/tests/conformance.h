@@ -85,21 +85,27 @@ void check_candidates(const Engine<Real>& engine, const Ray<Real>& ray, const Tr
   EXPECT_EQ(hit.object != kNoObject, !truth.all.empty()) << describe(ray);
 }
 
+template <class Real>
+std::vector<Truth<Real>> truths(const Geometry<Real>& geometry, std::span<const Ray<Real>> rays) {
+  std::vector<Truth<Real>> all;
+  for (const Ray<Real>& ray : rays) all.push_back(truth(geometry, ray));
+  return all;
+}
+
 /// All queries of a built engine on all rays. Stops at the first ray that fails: one is enough to look into.
 template <class Real>
-void check_engine(const Engine<Real>& engine, const Geometry<Real>& geometry,
-                  std::span<const Ray<Real>> rays) {
+void check_engine(const Engine<Real>& engine, std::span<const Ray<Real>> rays,
+                  std::span<const Truth<Real>> truths) {
   const auto scratch = engine.scratch();
   std::vector<Hit<Real>> hits(rays.size());
   std::vector<std::uint8_t> blocked(rays.size());
   engine.closest(rays, hits, *scratch);
   engine.any(rays, blocked, *scratch);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Truth<Real> expected = truth(geometry, rays[i]);
-    EXPECT_EQ(hits[i].object, expected.nearest.object) << describe(rays[i]);
-    EXPECT_EQ(hits[i].t, expected.nearest.t) << describe(rays[i]);
-    EXPECT_EQ(blocked[i] != 0, !expected.all.empty()) << describe(rays[i]);
-    if (engine.countable()) check_candidates(engine, rays[i], expected, *scratch);
+    EXPECT_EQ(hits[i].object, truths[i].nearest.object) << describe(rays[i]);
+    EXPECT_EQ(hits[i].t, truths[i].nearest.t) << describe(rays[i]);
+    EXPECT_EQ(blocked[i] != 0, !truths[i].all.empty()) << describe(rays[i]);
+    if (engine.countable()) check_candidates(engine, rays[i], truths[i], *scratch);
     if (::testing::Test::HasFailure()) return;
   }
 }

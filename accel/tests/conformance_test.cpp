@@ -14,10 +14,11 @@ void check_nasty_scenes(const TechniqueEntry& entry) {
       const Scene scene = nasty::scaled(named.scene, scale);
       const Geometry<Real> geometry(scene);
       const std::vector<Ray<Real>> rays = nasty::rays(geometry, scale, 150);
+      const auto truths = conformance::truths<Real>(geometry, rays);
       for (const conformance::Variant& variant : conformance::variants(entry)) {
         SCOPED_TRACE(fmt::format("{} on '{}' scaled by {}", variant.name(), named.name, scale));
         const Arguments arguments = variant.arguments();
-        conformance::check_engine<Real>(*entry.build<Real>({geometry, arguments}), geometry, rays);
+        conformance::check_engine<Real>(*entry.build<Real>({geometry, arguments}), rays, truths);
         if (::testing::Test::HasFailure()) return;
       }
     }
