@@ -2,18 +2,18 @@
 // J. Goldsmith, J. Salmon, "Automatic creation of object hierarchies for ray tracing", 1987.
 //
 // Idea       Insert the objects one by one into a growing tree, each where it increases the cost that
-// equation (3)
-//            expects by the least. The search for that place starts at the root and follows the child whose
-//            surface area would grow the least; of children that tie all are searched. The tree depends on
-//            the order of insertion, so several random orders may be tried and the cheapest tree kept.
+//            equation (3) expects by the least. The search for that place starts at the root and follows the
+//            child whose surface area would grow the least; of children that tie all are searched. The tree
+//            depends on the order of insertion, so several random orders may be tried and the cheapest tree
+//            kept.
 // Parameters order     given (the modeller's), sorted (along the longest axis) or shuffled; shuffled, since
-// the paper
-//                      found sorted order detrimental and random orders best
+//                      the paper found sorted order detrimental and random orders best
 //            shuffles  how many random orders to try; 1, since every one costs a whole build
 //            seed      of the shuffles
 // Cost       equation (3), exactly, for uniformly distributed rays without occlusion; the build is O(n log
-// n). Weak       objects of very different size inserted in the modeller's order; any scene that sorted order
-// suits badly.
+//            n).
+// Weak       objects of very different size inserted in the modeller's order; any scene that sorted order
+//            suits badly.
 
 #include <numeric>
 #include <random>

@@ -1,7 +1,7 @@
 // Exhaustive search (Arvo & Kirk §2; the null optimizer of Revelles & Ureña, C_n = s)
 //
-// Idea       Test every object for every ray. There is nothing to build and nothing to get wrong, which makes it the
-//            oracle that every other technique must equal.
+// Idea       Test every object for every ray. There is nothing to build and nothing to get wrong, which makes
+//            it the oracle that every other technique must equal.
 // Parameters none.
 // Cost       n object tests per ray, M = 1; equation (3) with a root volume that is never tested.
 // Weak       always, beyond a few dozen objects.

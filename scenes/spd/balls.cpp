@@ -2,7 +2,7 @@
 //
 // Purpose    Objects of widely varying size that touch one another, over a floor much larger than they are.
 // Size       sum of 9^k spheres for k = 0 to size, and one floor polygon: 1 → 11, 2 → 92, 3 → 821, 4 → 7382,
-// 5 → 66431.
+//            5 → 66431.
 
 #include <cmath>
 

@@ -1,8 +1,7 @@
 // gears, meshing gears in a cubic arrangement (Haines 1987)
 //
 // Purpose    Polygons of very different complexity and shape: 128 non-convex faces of 144 vertices next to
-// thousands of
-//            thin quadrilaterals; a fifth of the gears are glass.
+//            thousands of thin quadrilaterals; a fifth of the gears are glass.
 // Size       1 + 146 size³ polygons: 1 → 147, 2 → 1169, 4 → 9345 (default), 5 → 18251.
 
 #include <algorithm>

@@ -2,9 +2,8 @@
 //
 // Purpose    Thin crossing cylinders with spheres at their ends, nested in one another over several scales.
 // Size       9 objects a jack (3 cylinders, 6 spheres), sum of 8^k jacks for k = 0 to size-1: 1 → 9
-// (default), 2 → 81,
-//            3 → 657. A jack becomes 336 patches: its tessellation is always 2, whatever is asked for, and
-//            its normals are as long as it is small (1/scale), as in the original.
+//            (default), 2 → 81, 3 → 657. A jack becomes 336 patches: its tessellation is always 2, whatever
+//            is asked for, and its normals are as long as it is small (1/scale), as in the original.
 
 #include "scenes/spd/database.h"
 

@@ -1,8 +1,7 @@
 // lattice, spheres joined by cylinders in a cubic lattice (SPD package)
 //
 // Purpose    Equal objects, evenly spread, all around the eye: the ideal case for uniform subdivision. Every
-// object has
-//            a material of its own, as in the original.
+//            object has a material of its own, as in the original.
 // Size       (size+1)³ spheres and 3 size (size+1)² cylinders: 5 → 756, 12 → 8281 (default), 14 → 12825.
 
 #include <cmath>

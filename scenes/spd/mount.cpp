@@ -1,9 +1,10 @@
 // mount, a fractal mountain with four glass balls (Haines 1987)
 //
 // Purpose    A height field: triangles of similar size, connected, all near one surface; with glass above
-// them. Size       2·4^size triangles and 4 spheres: 4 → 516, 6 → 8196 (default), 8 → 131076. Terrain
-// Midpoint displacement whose random heights come from a deliberately poor hash of the grid position; the
-//            hash depends on the size, so mountains of different sizes are different mountains.
+//            them.
+// Size       2·4^size triangles and 4 spheres: 4 → 516, 6 → 8196 (default), 8 → 131076.
+// Terrain    Midpoint displacement whose random heights come from a deliberately poor hash of the grid
+//            position; the hash depends on the size, so mountains of different sizes are different mountains.
 
 #include <cmath>
 #include <cstdint>

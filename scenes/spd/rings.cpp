@@ -1,8 +1,8 @@
 // rings, a pyramid of dodecahedra made of rings (Haines 1987)
 //
 // Purpose    Cylinders and spheres in equal numbers that overlap at every joint, in loose clusters before a
-// wall. Size       n = 5 size (size+1) (2 size+1) spheres and as many cylinders, and one polygon: 1 → 61, 3 →
-// 841,
+//            wall.
+// Size       n = 5 size (size+1) (2 size+1) spheres and as many cylinders, and one polygon: 1 → 61, 3 → 841,
 //            7 → 8401 (default), 9 → 17101.
 
 #include <cmath>

@@ -1,10 +1,10 @@
 // shells, a sea shell of overlapping spheres (SPD package)
 //
 // Purpose    Spheres that overlap one another heavily and shrink geometrically along a spiral: any ray that
-// meets the
-//            shell pierces dozens of them, so culling by volume helps little and stopping early helps much.
+//            meets the shell pierces dozens of them, so culling by volume helps little and stopping early
+//            helps much.
 // Size       180·2^size + 1 spheres: 3 → 1441, 5 → 5761 (default), 6 → 11521. More spheres fill the same
-// spiral.
+//            spiral.
 
 #include <cmath>
 

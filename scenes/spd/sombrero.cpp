@@ -1,10 +1,11 @@
 // sombrero, the graph of a damped cosine (SPD package)
 //
 // Purpose    A smooth height field in a regular grid of triangles: evenly spread, connected, all near one
-// surface. Size       2 (w-1)² triangles over w = 32·2^(size-1) samples a side: 1 → 1922 (default), 2 → 7938,
-// 3 → 32258. Heights    are rounded to single precision and sampled at accumulated positions that end one
-// step short of the
-//            border, off the centre, as in the original.
+//            surface.
+// Size       2 (w-1)² triangles over w = 32·2^(size-1) samples a side: 1 → 1922 (default), 2 → 7938, 3 →
+//            32258.
+// Heights    are rounded to single precision and sampled at accumulated positions that end one step short of
+//            the border, off the centre, as in the original.
 
 #include <cmath>
 #include <vector>

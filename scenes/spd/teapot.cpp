@@ -1,9 +1,10 @@
 // teapot, Newell's teapot on a checkerboard (SPD package)
 //
 // Purpose    The teapot in the stadium: small triangles with vertex normals, dense and curved, among few
-// large squares. Size       64 size² - 8 size triangles and size² squares: 3 → 561, 6 → 2292, 12 → 9264
-// (default), 16 → 16512.
-//            The program of the package has the default 6, but every published figure was measured at 12.
+//            large squares.
+// Size       64 size² - 8 size triangles and size² squares: 3 → 561, 6 → 2292, 12 → 9264 (default), 16 →
+//            16512. The program of the package has the default 6, but every published figure was measured at
+//            12.
 // Weak       Size 1 would fold patches of the lid and the bottom onto themselves: sizes begin at 2.
 
 #include "scenes/spd/database.h"

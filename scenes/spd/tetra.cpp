@@ -1,7 +1,8 @@
 // tetra, the tetrahedral pyramid (Glassner; Haines 1987)
 //
 // Purpose    Triangles alone, all of one size, whose bounding volumes are mostly empty: a Sierpinski
-// tetrahedron. Size       4^size triangles: 4 → 256, 6 → 4096 (default), 8 → 65536, 11 → 4194304.
+//            tetrahedron.
+// Size       4^size triangles: 4 → 256, 6 → 4096 (default), 8 → 65536, 11 → 4194304.
 
 #include "scenes/spd/database.h"
 

@@ -1,8 +1,7 @@
 // tree, a binary tree of cones and spheres (Haines 1987; after Aono and Kunii)
 //
 // Purpose    Objects whose sizes span orders of magnitude, clustered at the twigs, over a field a hundred
-// times as wide
-//            as the tree: hard for any uniform subdivision.
+//            times as wide as the tree: hard for any uniform subdivision.
 // Size       2^(size+1) - 1 cones, as many spheres, one polygon: 8 → 1023, 11 → 8191 (default), 12 → 16383.
 
 #include "scenes/spd/database.h"

@@ -1,12 +1,11 @@
 // chords: uniform random lines through the scene's bounding sphere (Cauchy-Crofton measure)
 //
 // Purpose    The assumption behind equations (2) and (3): for these rays, and only for these, the probability
-// to hit a
-//            convex volume inside another is the ratio of their surface areas.
+//            to hit a convex volume inside another is the ratio of their surface areas.
 // Rules      A direction uniform on the sphere, a point uniform on the disc across it; the line enters the
-// sphere
-//            there. Four numbers a line, taken from a randomly shifted additive recurrence (generalised
-//            golden ratio), so that averages over chords converge faster than over independent lines.
+//            sphere there. Four numbers a line, taken from a randomly shifted additive recurrence
+//            (generalised golden ratio), so that averages over chords converge faster than over independent
+//            lines.
 
 #include <numbers>
 #include <random>

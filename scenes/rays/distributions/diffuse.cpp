@@ -1,10 +1,10 @@
 // diffuse: rays scattered by the visible surfaces, in random order
 //
 // Purpose    Incoherent rays, as diffuse light transport casts them: neighbours in the set have nothing in
-// common. Rules      The points that `primary` hits are shuffled and taken in turn; from each leaves a ray on
-// the side that is
-//            seen, its direction distributed by the cosine to the normal. A point is used again when all have
-//            been.
+//            common.
+// Rules      The points that `primary` hits are shuffled and taken in turn; from each leaves a ray on the
+//            side that is seen, its direction distributed by the cosine to the normal. A point is used again
+//            when all have been.
 // Parameters rays: 100,000. resolution: 513, of the eye rays that find the points.
 
 #include <numbers>

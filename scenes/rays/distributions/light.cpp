@@ -1,12 +1,10 @@
 // light: from each point light to what the eye sees
 //
 // Purpose    Occlusion seen from the lights: all rays of a light start at one point, which is what light
-// buffers and
-//            other directional techniques are made for.
+//            buffers and other directional techniques are made for.
 // Rules      For every light in turn, rays to the points that `primary` hits and that face it, row by row;
-// each ends just
-//            before its point and asks whether anything is in between. Where these are more than asked for,
-//            every n-th is taken, starting at a random one.
+//            each ends just before its point and asks whether anything is in between. Where these are more
+//            than asked for, every n-th is taken, starting at a random one.
 // Parameters rays: 100,000, at most. resolution: 513, of the eye rays that find the points.
 
 #include "scenes/rays/primary_hits.h"

@@ -1,11 +1,9 @@
 // points: lines of sight between random points of the scene
 //
 // Purpose    Rays that start anywhere in space, as those of scattering media and of point queries do, rather
-// than
-//            outside of all or on a surface.
+//            than outside of all or on a surface.
 // Rules      Origin and target are uniform in the box of the scene; the ray leads from one towards the other
-// and on
-//            without end.
+//            and on without end.
 // Parameters rays: 100,000, for a standard error of an average per ray of well under one per cent.
 
 #include "scenes/rays/distribution.h"

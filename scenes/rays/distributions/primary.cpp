@@ -1,7 +1,8 @@
 // primary: eye rays alone, the first generation of `whitted`
 //
 // Purpose    The most coherent rays there are: neighbours in the set start at one point in nearly one
-// direction. Rules      Those of whitted(rules=clean): a square grid from edge to edge of the view.
+//            direction.
+// Rules      Those of whitted(rules=clean): a square grid from edge to edge of the view.
 // Parameters resolution: 513, as in the published counts.
 
 #include "scenes/rays/primary_hits.h"

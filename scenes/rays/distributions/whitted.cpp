@@ -1,14 +1,11 @@
 // whitted: the ray trees of the SPD's pictures (Whitted 1980; Haines 1987)
 //
 // Purpose    The rays of a classic ray tracer, whose numbers Haines and Havran published scene by scene: who
-// traces the
-//            same scenes must cast the same rays.
+//            traces the same scenes must cast the same rays.
 // Rules      Eye rays on a square grid, five generations: a hit casts a shadow ray to every light it faces, a
-// mirror or
-//            glass reflects, glass refracts by Snell's law; nothing is cut off by weight.
+//            mirror or glass reflects, glass refracts by Snell's law; nothing is cut off by weight.
 // Parameters rules: clean, a correct tracer; haines and havran reproduce the conventions, and one error, of
-// the programs
-//            behind the published counts (ray_tree_rules.cpp). resolution: 513, as published.
+//            the programs behind the published counts (ray_tree_rules.cpp). resolution: 513, as published.
 // Order      By generation, within it pixel by pixel; shadow rays last, in the same order.
 
 #include <algorithm>
