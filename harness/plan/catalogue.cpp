@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "accel/core/registry.h"
+#include "harness/baseline/baselines.h"
 
 namespace rayshoot {
 
@@ -21,8 +22,10 @@ const TechniqueEntry& find_technique(const std::string& id) {
 
 const std::vector<const TechniqueEntry*>& catalogue() {
   static const std::vector<const TechniqueEntry*> entries = [] {
-    const auto techniques = technique_entries();
-    return std::vector<const TechniqueEntry*>(techniques.begin(), techniques.end());
+    const auto techniques = technique_entries(), baselines = baseline_entries();
+    std::vector<const TechniqueEntry*> all(techniques.begin(), techniques.end());
+    all.insert(all.end(), baselines.begin(), baselines.end());
+    return all;
   }();
   return entries;
 }

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "accel/core/engine.h"
+
+namespace rayshoot {
+
+/// The points of comparison, sorted by id: Embree, Embree's tree over our objects, and zero overhead.
+std::span<const TechniqueEntry* const> baseline_entries();
+
+/// Version of the Embree library in use, for example "3.13.5".
+std::string embree_version();
+
+}  // namespace rayshoot
