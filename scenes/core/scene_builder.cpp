@@ -8,6 +8,24 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// Give the builder what made `object`.
+void add_again(SceneBuilder& builder, const Scene& scene, std::uint32_t object) {
+  const SceneObject& entry = scene.objects[object];
+  if (entry.kind == ObjectKind::sphere) {
+    const Sphere<double>& sphere = scene.spheres[entry.index];
+    return builder.sphere(sphere.centre, sphere.radius);
+  }
+  if (entry.kind == ObjectKind::cone) {
+    const Cone<double>& cone = scene.cones[entry.index];
+    return builder.cone(cone.base, cone.base_radius, cone.apex, cone.apex_radius);
+  }
+  std::vector<Vec3d> vertices;
+  for (std::uint32_t corner = 0; corner < scene.vertex_count(object); ++corner)
+    vertices.push_back(scene.vertex(object, corner));
+  if (entry.first_normal == kNoObject) return builder.polygon(vertices);
+  builder.polygon(vertices, {scene.vertex_normals.data() + entry.first_normal, vertices.size()});
+}
+
 }  // namespace
 
 SceneBuilder::SceneBuilder(const SceneOptions& options) : options_(options) {}
@@ -116,6 +134,22 @@ void SceneBuilder::tessellate_cone(const Cone<double>& cone) {
     placed_patch({base, apex, previous_base}, {normal, normal, previous_normal});
     previous_apex = apex, previous_base = base, previous_normal = normal;
   }
+}
+
+Scene tessellated(const Scene& scene, int tessellation) {
+  SceneBuilder builder({.form = SceneForm::patches, .tessellation = tessellation});
+  builder.background(scene.background);
+  builder.view(scene.view);
+  for (const Light& light : scene.lights) builder.light(light.position, light.colour);
+  for (std::uint32_t object = 0; object < scene.size(); ++object) {
+    const std::uint32_t material = scene.objects[object].material;
+    if (object == 0 || material != scene.objects[object - 1].material)
+      builder.material(scene.materials[material]);
+    add_again(builder, scene, object);
+  }
+  Scene result = std::move(builder).finish();
+  result.id = scene.id;
+  return result;
 }
 
 double patches_of_sphere(const SceneOptions& options) {

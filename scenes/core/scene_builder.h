@@ -63,6 +63,10 @@ class SceneBuilder {
   Scene scene_;
 };
 
+/// The same scene with every sphere and cone replaced by the triangles that SPD's resolution `tessellation`
+/// makes of it. (jacks tessellates in a way of its own, so ask its generator for patches instead.)
+Scene tessellated(const Scene& scene, int tessellation);
+
 /// Number of objects a sphere or a cone becomes in the form asked for.
 double patches_of_sphere(const SceneOptions& options);
 double patches_of_cone(const SceneOptions& options);
