@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scenes/io/mesh.h"
 #include "scenes/io/nff.h"
 
 namespace rayshoot {
@@ -20,7 +21,7 @@ constexpr double kMostObjects = 1u << 30;
 /// same triangle compiled for tracing in double precision 80.
 constexpr double kBytesPerObject = 320;
 
-constexpr const char* kFileEndings = ".nff .obj .ply .off .stl";
+constexpr std::array kFileEndings = {".nff", ".obj", ".ply", ".off", ".stl"};
 
 std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
@@ -35,7 +36,8 @@ const SceneGenerator& find_generator(const std::string& id) {
     if (generator->id == id) return *generator;
     known.push_back(generator->id);
   }
-  throw InputError(fmt::format("{}; or a file ending in {}", unknown_name("scene", id, known), kFileEndings));
+  throw InputError(fmt::format("{}; or a file ending in {}", unknown_name("scene", id, known),
+                               fmt::join(kFileEndings, " ")));
 }
 
 /// What every generator accepts, then what this one adds.
@@ -99,7 +101,7 @@ LoadedScene generate_scene(const Spec& spec, std::optional<int> tessellation) {
 }
 
 LoadedScene read_scene(const std::string& path) {
-  LoadedScene loaded{.scene = read_nff(path)};
+  LoadedScene loaded{.scene = ending_of(path) == ".nff" ? read_nff(path) : read_mesh(path)};
   loaded.scene.id = path;
   return loaded;
 }
@@ -119,7 +121,9 @@ void check_object_count(const std::string& id, double objects, double memory) {
 }
 
 LoadedScene load_scene(const std::string& spec, std::optional<int> tessellation) {
-  if (ending_of(spec) == ".nff") return read_scene(spec);
+  const bool is_file =
+      std::find(kFileEndings.begin(), kFileEndings.end(), ending_of(spec)) != kFileEndings.end();
+  if (is_file) return read_scene(spec);
   return generate_scene(parse_spec(spec), tessellation);
 }
 

@@ -54,7 +54,7 @@ class NffReader {
   }
 
   [[noreturn]] void refuse_record(std::string_view record) const {
-    const std::string name(record.substr(0, 40));
+    const std::string name = shown(record);
     if (std::strchr("+-.0123456789", name.front()))
       text_.fail(fmt::format("a record should begin here, not the number {}", name));
     text_.fail(unknown_name("record", name, {"b", "v", "l", "f", "p", "pp", "s", "c"}));

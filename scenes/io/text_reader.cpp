@@ -16,15 +16,14 @@ constexpr std::size_t kShownCharacters = 40;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// A word of the text as a message may show it: short, and printable whatever the file holds.
+}  // namespace
+
 std::string shown(std::string_view word) {
   std::string text(word.substr(0, kShownCharacters));
   for (char& c : text)
     if (c < ' ' || c > '~') c = '?';
   return word.size() > kShownCharacters ? text + "..." : text;
 }
-
-}  // namespace
 
 TextReader::TextReader(std::istream& in, std::string name)
     : in_(in), name_(std::move(name)), block_(kBlockBytes) {}

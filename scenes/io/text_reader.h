@@ -9,6 +9,9 @@
 
 namespace rayshoot {
 
+/// A word of a file as a message may show it: short, and printable whatever the file holds.
+std::string shown(std::string_view word);
+
 /// The words and numbers of a text, line by line, in memory that does not grow with the text. Words are
 /// separated by blanks; `#` begins a comment. Every error is an InputError "name:line: reason".
 class TextReader {

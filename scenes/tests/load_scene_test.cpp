@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "scenes/io/mesh.h"
 #include "scenes/io/nff.h"
 
 namespace rayshoot {
@@ -69,6 +70,17 @@ TEST(LoadScene, ReadsFilesByTheirEnding) {
   EXPECT_EQ(loaded.scene.id, path);
   EXPECT_EQ(loaded.generator + loaded.form, "");
   EXPECT_FALSE(loaded.size);
+}
+
+TEST(LoadScene, ReadsMeshFiles) {
+  for (const char* ending : {"obj", "ply", "off", "stl"}) {
+    const std::string path = fmt::format("{}/rayshoot_load_{}.{}", testing::TempDir(), ::getpid(), ending);
+    write_mesh(load_scene("balls:1").scene, path);
+    const LoadedScene loaded = load_scene(path);
+    std::filesystem::remove(path);
+    EXPECT_GE(loaded.scene.size(), 1 + 10 * 108u) << ending;
+    EXPECT_EQ(loaded.scene.id, path);
+  }
 }
 
 TEST(LoadScene, EveryGeneratorMakesAsManyObjectsAsItSays) {
