@@ -320,7 +320,7 @@ TEST(NffSixDigits, AgreesWithTheFilesOfTheOriginalPrograms) {
   std::ifstream file(RAYSHOOT_TEST_DATA "/six_digit_nff.json");
   for (const auto& expected : nlohmann::json::parse(file)) {
     const SceneGenerator* generator = find_generator(expected["scene"]);
-    if (!generator) continue;
+    ASSERT_NE(generator, nullptr) << expected;
     const SceneForm form = expected["form"] == "curves" ? SceneForm::curves : SceneForm::patches;
     const Scene scene = parse(written(generated(*generator, {.size = expected["size"], .form = form}), 6));
     const Aggregates found(scene);
