@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "scenes/io/mesh.h"
 #include "scenes/io/nff.h"
@@ -28,6 +29,10 @@ std::string ending_of(const std::string& path) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   return ending;
+}
+
+bool names_file(const std::string& spec) {
+  return std::find(kFileEndings.begin(), kFileEndings.end(), ending_of(spec)) != kFileEndings.end();
 }
 
 const SceneGenerator& find_generator(const std::string& id) {
@@ -82,7 +87,15 @@ double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
-LoadedScene generate_scene(const Spec& spec, std::optional<int> tessellation) {
+/// A specification of a generated scene, understood and found to fit into memory.
+struct Recipe {
+  const SceneGenerator& generator;
+  Arguments arguments;
+  SceneOptions options;
+  std::string id;
+};
+
+Recipe resolve(const Spec& spec, std::optional<int> tessellation) {
   const SceneGenerator& generator = find_generator(spec.name);
   const std::vector<Parameter> parameters = parameters_of(generator);
   const Arguments arguments(parameters, named_arguments(spec, tessellation), spec.name);
@@ -92,11 +105,15 @@ LoadedScene generate_scene(const Spec& spec, std::optional<int> tessellation) {
                              .tessellation = static_cast<int>(arguments.integer("tessellation"))};
   const std::string id = canonical_id(spec.name, parameters, arguments);
   check_object_count(id, generator.object_count(options, arguments), physical_memory());
+  return {generator, arguments, options, id};
+}
 
-  SceneBuilder builder(options);
-  generator.generate(options, arguments, builder);
-  LoadedScene loaded{std::move(builder).finish(), generator.id, options.size, arguments.text("form")};
-  loaded.scene.id = id;
+LoadedScene generate_scene(const Recipe& recipe) {
+  SceneBuilder builder(recipe.options);
+  recipe.generator.generate(recipe.options, recipe.arguments, builder);
+  LoadedScene loaded{std::move(builder).finish(), recipe.generator.id, recipe.options.size,
+                     recipe.arguments.text("form")};
+  loaded.scene.id = recipe.id;
   return loaded;
 }
 
@@ -121,10 +138,14 @@ void check_object_count(const std::string& id, double objects, double memory) {
 }
 
 LoadedScene load_scene(const std::string& spec, std::optional<int> tessellation) {
-  const bool is_file =
-      std::find(kFileEndings.begin(), kFileEndings.end(), ending_of(spec)) != kFileEndings.end();
-  if (is_file) return read_scene(spec);
-  return generate_scene(parse_spec(spec), tessellation);
+  if (names_file(spec)) return read_scene(spec);
+  return generate_scene(resolve(parse_spec(spec), tessellation));
+}
+
+std::string scene_id(const std::string& spec, std::optional<int> tessellation) {
+  if (!names_file(spec)) return resolve(parse_spec(spec), tessellation).id;
+  if (!std::ifstream(spec)) throw InputError(fmt::format("{}: cannot be read", spec));
+  return spec;
 }
 
 }  // namespace rayshoot

@@ -26,6 +26,10 @@ struct LoadedScene {
 /// hold.
 LoadedScene load_scene(const std::string& spec, std::optional<int> tessellation = {});
 
+/// The id that `load_scene` would give, without loading: throws InputError where `load_scene` would, but for
+/// the content of files.
+std::string scene_id(const std::string& spec, std::optional<int> tessellation = {});
+
 /// Throws InputError unless `objects` objects fit into a scene and, with what tracing compiles them to, into
 /// `memory` bytes; `id` names the scene in the message.
 void check_object_count(const std::string& id, double objects, double memory);

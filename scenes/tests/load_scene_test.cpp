@@ -132,6 +132,14 @@ TEST(LoadScene, RefusesScenesThatCannotFit) {
                   "scene would have 1e+06 objects and need about 0.298 GiB; this machine has 0.186 GiB"));
 }
 
+TEST(LoadScene, TellsTheIdWithoutLoading) {
+  EXPECT_EQ(scene_id("balls(size=2)"), "balls:2/curves");
+  EXPECT_EQ(scene_id("balls:1/patches", 2), "balls:1/patches(tessellation=2)");
+  EXPECT_THROW(scene_id("bals"), InputError);
+  EXPECT_THROW(scene_id("balls:12"), InputError);
+  EXPECT_THROW(scene_id("no/such/file.nff"), InputError);
+}
+
 TEST(LoadScene, NamesUnreadableFiles) {
   EXPECT_EQ(refusal("no/such/file.nff"), "cannot read no/such/file.nff: No such file or directory");
 }
