@@ -33,7 +33,8 @@ struct Environment {
   /// Cache sizes by name: "l1d", "l2", "l3".
   std::map<std::string, std::uint64_t> caches_bytes;
   std::string governor;
-  double load = 0;
+  /// Load average of the last minute when the run started.
+  std::optional<double> load;
   std::string os;
   std::string compiler;
   std::string flags;
@@ -132,18 +133,20 @@ struct Measurement {
   std::string query;
   Verdict verdict;
   std::optional<Work> work;
-  /// Work of the strict optimizer on the same rays.
+  /// Work of the strict optimizer on the same rays, or on the random subset that `rays` of it counts.
   std::optional<Work> strict_work;
   std::optional<Structure> structure;
   std::optional<Predicted> predicted;
   std::optional<Efficiency> efficiency;
   /// Wall time of each build and of each pass over the whole batch, in nanoseconds.
   std::vector<double> build_ns, trace_ns;
+  /// Threads that traced while `trace_ns` was taken.
+  int trace_threads = 1;
   /// Thread scaling, where asked for.
   std::vector<ThreadTimes> threads;
 };
 
-/// A cell that was planned and not run.
+/// A cell that was planned and not run; `technique` is the specification that was asked for.
 struct LeftOutCell {
   std::string scene, rays, technique, scalar, why;
 };
@@ -157,21 +160,24 @@ struct Report {
   std::vector<LeftOutCell> left_out;
 };
 
-/// Thrown when a file is not a report; `what()` is one line.
+/// Thrown when a file is not a report or cannot be read or written; `what()` is one line.
 class ReportError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Read a report, upgrading older versions. Throws ReportError on what is not one.
+/// Read a report. Throws ReportError, with the file and the JSON path of the first fault, on what is not one.
 Report read_report(const std::string& path);
 
 /// Write to a temporary file beside `path`, then rename. Throws ReportError when that fails.
 void write_report(const Report& report, const std::string& path);
 
-/// The JSON text of a report.
+/// The JSON text of a report. A number that is not finite is absent, and so is the optional member it belongs to;
+/// throws ReportError where a required member is not finite.
 std::string to_json(const Report& report);
-/// The inverse of `to_json`; unknown members are errors.
+
+/// The inverse of `to_json`. Members that are unknown, missing or of another type are errors, and so are another
+/// schema version, a measurement of a scene or ray set that the report does not list, and a time of a wrong answer.
 Report from_json(const std::string& text);
 
 }  // namespace rayshoot::report

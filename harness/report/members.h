@@ -1,0 +1,185 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+
+#include "harness/report/report.h"
+
+/// The members of every object of a report: what reader and writer both follow.
+///
+/// A visitor has required(name, value), optional(name, value), for a std::optional or a list that is absent when
+/// empty, and choice(name, value, words), for a required string that is one of some words.
+namespace rayshoot::report {
+
+inline constexpr const char* kSchemaName = "rayshoot.report";
+inline constexpr std::array kStatusNames = {"ok", "wrong", "graded", "failed"};
+inline constexpr std::array kScalarNames = {"float", "double"};
+inline constexpr std::array kQueryNames = {"closest", "any", "closest+any"};
+
+/// T, to be read into, or const T, to be written.
+template <class Object, class T>
+concept Some = std::same_as<std::remove_const_t<Object>, T>;
+
+template <Some<Run> T, class Visitor>
+void members(T& run, Visitor& visitor) {
+  visitor.required("id", run.id);
+  visitor.required("command", run.command);
+  visitor.required("started_utc", run.started_utc);
+  visitor.required("seconds", run.seconds);
+  visitor.required("git_commit", run.git_commit);
+  visitor.required("git_dirty", run.git_dirty);
+  visitor.required("seed", run.seed);
+  visitor.required("complete", run.complete);
+}
+
+template <Some<Environment> T, class Visitor>
+void members(T& environment, Visitor& visitor) {
+  visitor.required("cpu", environment.cpu);
+  visitor.required("cores", environment.cores);
+  visitor.required("caches_bytes", environment.caches_bytes);
+  visitor.required("governor", environment.governor);
+  visitor.optional("load", environment.load);
+  visitor.required("os", environment.os);
+  visitor.required("compiler", environment.compiler);
+  visitor.required("flags", environment.flags);
+  visitor.required("packages", environment.packages);
+}
+
+template <Some<LeftOut> T, class Visitor>
+void members(T& left_out, Visitor& visitor) {
+  visitor.required("what", left_out.what);
+  visitor.required("why", left_out.why);
+}
+
+template <Some<Bounds> T, class Visitor>
+void members(T& bounds, Visitor& visitor) {
+  visitor.required("min", bounds.min);
+  visitor.required("max", bounds.max);
+}
+
+template <Some<Scene> T, class Visitor>
+void members(T& scene, Visitor& visitor) {
+  visitor.required("id", scene.id);
+  visitor.required("generator", scene.generator);
+  visitor.optional("size", scene.size);
+  visitor.required("form", scene.form);
+  visitor.required("objects", scene.objects);
+  visitor.required("counts", scene.counts);
+  visitor.optional("bounds", scene.bounds);
+  visitor.required("hash", scene.hash);
+  visitor.required("needs", scene.needs);
+  visitor.required("set_aside", scene.set_aside);
+  visitor.required("left_out", scene.left_out);
+}
+
+template <Some<RaySet> T, class Visitor>
+void members(T& set, Visitor& visitor) {
+  visitor.required("id", set.id);
+  visitor.required("scene", set.scene);
+  visitor.required("distribution", set.distribution);
+  visitor.optional("rules", set.rules);
+  visitor.required("rays", set.rays);
+  visitor.required("closest_rays", set.closest_rays);
+  visitor.required("any_rays", set.any_rays);
+  visitor.required("primary_rays", set.primary_rays);
+  visitor.required("primary_hits", set.primary_hits);
+  visitor.required("shadow_rays", set.shadow_rays);
+  visitor.required("shadow_hits", set.shadow_hits);
+  visitor.required("reflected_rays", set.reflected_rays);
+  visitor.required("refracted_rays", set.refracted_rays);
+  visitor.required("total_internal_reflections", set.total_internal_reflections);
+  visitor.required("secondary_hits", set.secondary_hits);
+  visitor.required("hash", set.hash);
+}
+
+template <Some<Verdict> T, class Visitor>
+void members(T& verdict, Visitor& visitor) {
+  visitor.required("status", verdict.status);
+  visitor.required("checked_rays", verdict.checked_rays);
+  visitor.required("wrong_rays", verdict.wrong_rays);
+  visitor.required("reference", verdict.reference);
+  visitor.optional("message", verdict.message);
+}
+
+template <Some<Work> T, class Visitor>
+void members(T& work, Visitor& visitor) {
+  visitor.required("rays", work.rays);
+  visitor.required("object_tests", work.object_tests);
+  visitor.required("distinct_objects", work.distinct_objects);
+  visitor.required("volume_tests", work.volume_tests);
+  visitor.required("steps", work.steps);
+  visitor.required("cells", work.cells);
+  visitor.required("empty_cells", work.empty_cells);
+  visitor.required("mailbox_hits", work.mailbox_hits);
+}
+
+template <Some<Structure> T, class Visitor>
+void members(T& structure, Visitor& visitor) {
+  visitor.required("nodes", structure.nodes);
+  visitor.required("leaves", structure.leaves);
+  visitor.required("empty_leaves", structure.empty_leaves);
+  visitor.required("references", structure.references);
+  visitor.required("max_depth", structure.max_depth);
+  visitor.required("bytes", structure.bytes);
+}
+
+template <Some<Predicted> T, class Visitor>
+void members(T& predicted, Visitor& visitor) {
+  visitor.required("object_tests_per_ray", predicted.object_tests_per_ray);
+  visitor.required("volume_tests_per_ray", predicted.volume_tests_per_ray);
+}
+
+template <Some<Efficiency> T, class Visitor>
+void members(T& efficiency, Visitor& visitor) {
+  visitor.required("m", efficiency.m);
+  visitor.required("m_ci95", efficiency.m_ci95);
+  visitor.required("m_strict", efficiency.m_strict);
+  visitor.required("m_strict_ci95", efficiency.m_strict_ci95);
+}
+
+template <Some<ThreadTimes> T, class Visitor>
+void members(T& times, Visitor& visitor) {
+  visitor.required("threads", times.threads);
+  visitor.required("trace_ns", times.trace_ns);
+}
+
+template <Some<Measurement> T, class Visitor>
+void members(T& measurement, Visitor& visitor) {
+  visitor.required("scene", measurement.scene);
+  visitor.required("rays", measurement.rays);
+  visitor.required("technique", measurement.technique);
+  visitor.required("config", measurement.config);
+  visitor.choice("scalar", measurement.scalar, kScalarNames);
+  visitor.choice("query", measurement.query, kQueryNames);
+  visitor.required("verdict", measurement.verdict);
+  visitor.optional("work", measurement.work);
+  visitor.optional("strict_work", measurement.strict_work);
+  visitor.optional("structure", measurement.structure);
+  visitor.optional("predicted", measurement.predicted);
+  visitor.optional("efficiency", measurement.efficiency);
+  visitor.optional("build_ns", measurement.build_ns);
+  visitor.optional("trace_ns", measurement.trace_ns);
+  visitor.required("trace_threads", measurement.trace_threads);
+  visitor.optional("threads", measurement.threads);
+}
+
+template <Some<LeftOutCell> T, class Visitor>
+void members(T& cell, Visitor& visitor) {
+  visitor.required("scene", cell.scene);
+  visitor.required("rays", cell.rays);
+  visitor.required("technique", cell.technique);
+  visitor.choice("scalar", cell.scalar, kScalarNames);
+  visitor.required("why", cell.why);
+}
+
+template <Some<Report> T, class Visitor>
+void members(T& report, Visitor& visitor) {
+  visitor.required("run", report.run);
+  visitor.required("environment", report.environment);
+  visitor.required("scenes", report.scenes);
+  visitor.required("ray_sets", report.ray_sets);
+  visitor.required("measurements", report.measurements);
+  visitor.required("left_out", report.left_out);
+}
+
+}  // namespace rayshoot::report

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "harness/report/report.h"
+
+namespace rayshoot::test {
+
+/// A report in which every member of the format is present, each with a value of its own.
+inline report::Report full_report() {
+  report::Report report;
+  report.run = {.id = "20250102T030405.678Z-9",
+                .command = "rayshoot run quick --seed 7",
+                .started_utc = "2025-01-02T03:04:05Z",
+                .seconds = 1.25,
+                .git_commit = "0123456789abcdef",
+                .git_dirty = true,
+                .seed = 18446744073709551615u,
+                .complete = false};
+  report.environment = {.cpu = "A processor",
+                        .cores = 2,
+                        .caches_bytes = {{"l1d", 32768}, {"l2", 1048576}},
+                        .governor = "performance",
+                        .load = 0.5,
+                        .os = "An operating system",
+                        .compiler = "GNU 12.2.0",
+                        .flags = "-O3",
+                        .packages = {{"embree", "3.13.5"}}};
+  report.scenes = {{.id = "balls:2/curves",
+                    .generator = "balls",
+                    .size = 2,
+                    .form = "curves",
+                    .objects = 92,
+                    .counts = {{"polygon", 1}, {"sphere", 91}},
+                    .bounds = report::Bounds{{-1, -2, -3.5}, {1, 2, 0.1}},
+                    .hash = "00000000000000aa",
+                    .needs = {{"shadow_rays", true}, {"triangles_only", false}},
+                    .set_aside = {{"not finite", 3}},
+                    .left_out = {{"refracted rays", "no material transmits"}}}};
+  report.ray_sets = {{.id = "balls:2/curves/whitted@3",
+                      .scene = "balls:2/curves",
+                      .distribution = "whitted",
+                      .rules = "clean",
+                      .rays = 30,
+                      .closest_rays = 12,
+                      .any_rays = 18,
+                      .primary_rays = 9,
+                      .primary_hits = 8,
+                      .shadow_rays = 18,
+                      .shadow_hits = 7,
+                      .reflected_rays = 2,
+                      .refracted_rays = 1,
+                      .total_internal_reflections = 4,
+                      .secondary_hits = 3,
+                      .hash = "00000000000000bb"}};
+  report.measurements = {
+      {.scene = "balls:2/curves",
+       .rays = "balls:2/curves/whitted@3",
+       .technique = "uniform_grid",
+       .config = {{"density", 0.1}, {"resolution", std::int64_t{-1}}, {"mailbox", true}, {"rule", "woo"}},
+       .scalar = "float",
+       .query = "closest+any",
+       .verdict = {report::Status::graded, 30, 1, "exhaustive", "one ray differs"},
+       .work = report::Work{30, 120, 100, 60, 90, 80, 20, 10},
+       .strict_work = report::Work{15, 240, 200, 61, 91, 81, 21, 11},
+       .structure = report::Structure{64, 63, 40, 120, 1, 4096},
+       .predicted = report::Predicted{4.5, 2.25},
+       .efficiency = report::Efficiency{0.036, {0.03, 0.042}, 0.14, {0.13, 0.15}},
+       .build_ns = {1000, 1001.5},
+       .trace_ns = {3000, 3100, 3050},
+       .trace_threads = 1,
+       .threads = {{2, {1600, 1650}}}}};
+  report.left_out = {{"balls:2/curves", "balls:2/curves/light", "exhaustive", "double", "it is slow"}};
+  return report;
+}
+
+}  // namespace rayshoot::test
