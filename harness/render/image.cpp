@@ -22,12 +22,12 @@ void Image::write(int left, int top, const std::string& text, int scale, const R
     float x, y, z;
     unsigned char colour[4];
   };
-  std::vector<Corner> corners(text.size() * 64);
+  std::vector<Corner> corners(64 * text.size());
   std::string copy = text;  // the library takes a pointer to non-const
-  const int rectangles = stb_easy_font_print(0, 0, copy.data(), nullptr, corners.data(),
-                                             static_cast<int>(corners.size() * sizeof(Corner)));
+  const std::size_t rectangles = stb_easy_font_print(0, 0, copy.data(), nullptr, corners.data(),
+                                                     static_cast<int>(corners.size() * sizeof(Corner)));
   const auto pixel = [&](float position) { return static_cast<int>(std::lround(position)) * scale; };
-  for (int i = 0; i < rectangles; ++i) {
+  for (std::size_t i = 0; i < rectangles; ++i) {
     const Corner &first = corners[4 * i], &opposite = corners[4 * i + 2];
     fill(left + pixel(first.x), top + pixel(first.y), left + pixel(opposite.x), top + pixel(opposite.y),
          colour);

@@ -26,6 +26,6 @@ struct RenderOptions {
 /// in float where the technique has it. Throws InputError on a size that is not a picture's, and for a technique
 /// that cannot show what is asked for.
 Image render(const Scene& scene, const TechniqueEntry& technique, const Arguments& arguments,
-             const RenderOptions& options);
+             const RenderOptions& asked);
 
 }  // namespace rayshoot
