@@ -11,13 +11,14 @@ namespace rayshoot {
 struct HeatMap {
   int width = 0, height = 0;
   std::vector<double> values;
-  /// What the numbers are and of what, for the legend: "object tests per eye ray", "bvh_sah on balls:4/curves".
+  /// What the numbers are and of what, for the legend: "object tests per eye ray", "bvh_sah on
+  /// balls:4/curves".
   std::string title, subject;
 };
 
-/// The picture of a heat map, and below it a legend: titles, colour bar with numbers, mean and largest value. The
-/// colours end at a round number that no more than one pixel in 200 exceeds, so that a few outliers do not leave
-/// the rest in the dark.
+/// The picture of a heat map, and below it a legend: titles, colour bar with numbers, mean and largest value.
+/// The colours end at a round number that no more than one pixel in 200 exceeds, so that a few outliers do
+/// not leave the rest in the dark.
 Image heat_picture(const HeatMap& map);
 
 /// The number at which the colours end.

@@ -22,9 +22,9 @@ struct RenderOptions {
   int samples = 2;
 };
 
-/// Trace a picture of a scene with a technique. Shaded pictures are traced in double precision, heat maps of work
-/// in float where the technique has it. Throws InputError on a size that is not a picture's, and for a technique
-/// that cannot show what is asked for.
+/// Trace a picture of a scene with a technique. Shaded pictures are traced in double precision, heat maps of
+/// work in float where the technique has it. Throws InputError on a size that is not a picture's, and for a
+/// technique that cannot show what is asked for.
 Image render(const Scene& scene, const TechniqueEntry& technique, const Arguments& arguments,
              const RenderOptions& asked);
 

@@ -20,7 +20,8 @@ constexpr int kRowsPerBand = 8;
 /// Light that reaches every surface; NFF has none, and what is in shadow would be black.
 constexpr double kAmbient = 0.06;
 
-/// The amounts of light for which a colour of the screen stands, and the other way round (sRGB, IEC 61966-2-1).
+/// The amounts of light for which a colour of the screen stands, and the other way round (sRGB, IEC
+/// 61966-2-1).
 double decoded(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
@@ -79,7 +80,8 @@ class TreeShader {
     return sights;
   }
 
-  /// A mirror passes on its specular share, glass its transmittance: where light is totally reflected, backwards.
+  /// A mirror passes on its specular share, glass its transmittance: where light is totally reflected,
+  /// backwards.
   std::vector<Sight> later_sights(const Wave& wave) {
     for (std::size_t ray = 0; ray < wave.encounters.size(); ++ray)
       if (wave.rays.origins[ray].kind == RayKind::refracted)
