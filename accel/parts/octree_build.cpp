@@ -1,0 +1,221 @@
+#include "accel/parts/octree_build.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "accel/parts/surface_margin.h"
+
+namespace rayshoot {
+
+std::vector<Parameter> octree_parameters() {
+  return {
+      integer_parameter(
+          "max_depth", 0, 0, kMaxOctreeDepth,
+          "divisions between the root and the smallest cell; 0: suited to the number of objects"),
+      integer_parameter("max_objects", OctreeLimits{}.max_objects, 1, 1'000'000,
+                        "a cell with that many objects or fewer is not divided"),
+      choice_parameter("assignment", "surface", {"surface", "box"},
+                       "a leaf refers to the objects whose surface penetrates it, or whose bounds touch it")};
+}
+
+OctreeLimits octree_limits(const Arguments& arguments) {
+  return {.max_depth = static_cast<int>(arguments.integer("max_depth")),
+          .max_objects = static_cast<std::uint32_t>(arguments.integer("max_objects")),
+          .assignment = arguments.text("assignment") == "box" ? Assignment::box : Assignment::surface};
+}
+
+int suitable_depth(std::uint32_t objects) {
+  // A surface passes 4^depth cells.
+  return std::min(static_cast<int>(std::bit_width(objects) + 1) / 2 + 2, kMaxOctreeDepth);
+}
+
+namespace {
+
+/// A cell of the level under construction, its objects, and after sorting what its children get.
+struct OpenCell {
+  std::uint32_t node = 0;
+  std::array<int, 3> corner{};
+  std::uint64_t first = 0;
+  std::uint32_t count = 0;
+  std::array<std::uint32_t, 8> child_counts{};
+  /// Whether the division that made the cell separated anything.
+  bool separated = true;
+
+  /// Whether division will separate anything.
+  bool separable() const {
+    return std::any_of(child_counts.begin(), child_counts.end(), [&](std::uint32_t n) { return n < count; });
+  }
+  std::uint64_t children() const {
+    return std::accumulate(child_counts.begin(), child_counts.end(), std::uint64_t{0});
+  }
+};
+
+template <class Body>
+void for_each_index(std::size_t count, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+  });
+}
+
+template <class Real>
+class OctreeBuilder {
+ public:
+  OctreeBuilder(const Geometry<Real>& geometry, const OctreeLimits& limits)
+      : geometry_(geometry),
+        limits_(limits),
+        max_references_(std::min<std::uint64_t>(
+            kSpareReferences + limits.references_per_object * geometry.size(), UINT32_MAX - 1)) {
+    if (limits.assignment == Assignment::surface) margin_ = SurfaceMargin<Real>(geometry.bounds()).of_cells();
+    // Cells not much thicker than the margin would all get the same objects.
+    octree_.lattice = Lattice<Real>::over(
+        geometry.bounds(), limits.max_depth ? limits.max_depth : suitable_depth(geometry.size()),
+        4 * margin_);
+  }
+
+  Octree<Real> build() && {
+    // Begin with one cell that holds everything.
+    octree_.nodes.resize(1);
+    objects_.resize(geometry_.size());
+    std::iota(objects_.begin(), objects_.end(), 0u);
+    cells_.push_back({.count = geometry_.size()});
+
+    // Level by level, divide every cell with too many objects, if that separates them and storage allows.
+    int depth = 0;
+    for (;; ++depth) {
+      close_cells([&](const OpenCell& cell) { return cell.count <= limits_.max_objects; });
+      if (depth == octree_.lattice.depth) break;
+      const int child_size = octree_.lattice.layers() >> (depth + 1);
+      sort_into_children(child_size);
+      close_cells([](const OpenCell& cell) { return !cell.separable() && !cell.separated; });
+      if (cells_.empty() || !storage_suffices()) break;
+      divide(child_size);
+    }
+    close_cells([](const OpenCell&) { return true; });
+    octree_.lattice = octree_.lattice.coarsened(depth);
+    return std::move(octree_);
+  }
+
+ private:
+  /// Make leaves of the open cells for which `done` holds.
+  template <class Predicate>
+  void close_cells(const Predicate& done) {
+    std::erase_if(cells_, [&](const OpenCell& cell) {
+      if (!done(cell)) return false;
+      octree_.nodes[cell.node] = {static_cast<std::uint32_t>(octree_.references.size()), cell.count};
+      const auto begin = objects_.begin() + static_cast<std::ptrdiff_t>(cell.first);
+      octree_.references.insert(octree_.references.end(), begin, begin + cell.count);
+      return true;
+    });
+  }
+
+  void sort_into_children(int child_size) {
+    octants_.resize(objects_.size());
+    for_each_index(cells_.size(), [&](std::size_t i) {
+      OpenCell& cell = cells_[i];
+      for_each_index(cell.count, [&](std::size_t k) {
+        octants_[cell.first + k] = octants_of(objects_[cell.first + k], cell.corner, child_size);
+      });
+      for (std::uint32_t k = 0; k < cell.count; ++k)
+        for (int octant = 0; octant < 8; ++octant)
+          cell.child_counts[octant] += octants_[cell.first + k] >> octant & 1;
+    });
+  }
+
+  /// The children of a cell to which one of its objects belongs: bit i for octant i.
+  std::uint8_t octants_of(std::uint32_t object, const std::array<int, 3>& corner, int child_size) const {
+    constexpr unsigned lower_halves[] = {0b01010101, 0b00110011, 0b00001111};
+    const Box<Real> bounds = geometry_.bounds(object);
+    unsigned octants = 0xFF;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real middle = octree_.lattice.plane(axis, corner[axis] + child_size);
+      if (!(bounds.lo[axis] <= middle + margin_)) octants &= ~lower_halves[axis];
+      if (!(bounds.hi[axis] >= middle - margin_)) octants &= lower_halves[axis];
+    }
+    // What lies in one child by its bounds lies there with the part of its surface that is in this cell.
+    if (limits_.assignment == Assignment::surface && !std::has_single_bit(octants))
+      for (unsigned octant = 0; octant < 8; ++octant)
+        if ((octants >> octant & 1) &&
+            !penetrates(object, child_corner(corner, octant, child_size), child_size))
+          octants &= ~(1u << octant);
+    return static_cast<std::uint8_t>(octants);
+  }
+
+  bool penetrates(std::uint32_t object, const std::array<int, 3>& corner, int size) const {
+    return geometry_.overlaps(object, widened(octree_.lattice.cell(corner, size), margin_));
+  }
+
+  static std::array<int, 3> child_corner(const std::array<int, 3>& corner, unsigned octant, int child_size) {
+    std::array<int, 3> child = corner;
+    for (int axis = 0; axis < 3; ++axis)
+      if (octant >> axis & 1) child[axis] += child_size;
+    return child;
+  }
+
+  bool storage_suffices() const {
+    std::uint64_t references = octree_.references.size();
+    for (const OpenCell& cell : cells_) references += cell.children();
+    return references <= max_references_ && octree_.nodes.size() + 8 * cells_.size() < UINT32_MAX;
+  }
+
+  /// Replace the open cells by their children.
+  void divide(int child_size) {
+    std::vector<OpenCell> children;
+    children.reserve(8 * cells_.size());
+    std::uint64_t first = 0;
+    for (const OpenCell& cell : cells_) {
+      octree_.nodes[cell.node] = {static_cast<std::uint32_t>(octree_.nodes.size() + children.size()),
+                                  Octree<Real>::Node::kInterior};
+      for (unsigned octant = 0; octant < 8; ++octant) {
+        const auto node = static_cast<std::uint32_t>(octree_.nodes.size() + children.size());
+        children.push_back({.node = node,
+                            .corner = child_corner(cell.corner, octant, child_size),
+                            .first = first,
+                            .count = cell.child_counts[octant],
+                            .separated = cell.separable()});
+        first += cell.child_counts[octant];
+      }
+    }
+    octree_.nodes.resize(octree_.nodes.size() + children.size());
+    hand_down(children, first);
+  }
+
+  /// Copy the objects of the open cells into the lists of their children.
+  void hand_down(std::vector<OpenCell>& children, std::uint64_t references) {
+    std::vector<std::uint32_t> lists(references);
+    for_each_index(cells_.size(), [&](std::size_t i) {
+      std::array<std::uint64_t, 8> next;
+      for (int octant = 0; octant < 8; ++octant) next[octant] = children[8 * i + octant].first;
+      for (std::uint64_t k = cells_[i].first; k < cells_[i].first + cells_[i].count; ++k)
+        for (unsigned octants = octants_[k]; octants != 0; octants &= octants - 1)
+          lists[next[std::countr_zero(octants)]++] = objects_[k];
+    });
+    objects_ = std::move(lists);
+    cells_ = std::move(children);
+  }
+
+  const Geometry<Real>& geometry_;
+  OctreeLimits limits_;
+  std::uint64_t max_references_;
+  /// By how much a cell is widened before it is compared with a surface.
+  Real margin_ = 0;
+  Octree<Real> octree_;
+  std::vector<OpenCell> cells_;
+  std::vector<std::uint32_t> objects_;
+  std::vector<std::uint8_t> octants_;
+};
+
+}  // namespace
+
+template <class Real>
+Octree<Real> build_octree(const Geometry<Real>& geometry, const OctreeLimits& limits) {
+  return OctreeBuilder<Real>(geometry, limits).build();
+}
+
+template Octree<float> build_octree(const Geometry<float>&, const OctreeLimits&);
+template Octree<double> build_octree(const Geometry<double>&, const OctreeLimits&);
+
+}  // namespace rayshoot
