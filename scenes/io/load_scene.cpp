@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "scenes/io/mesh.h"
+#include "scenes/core/memory.h"
 #include "scenes/io/nff.h"
 
 namespace rayshoot {
@@ -81,10 +81,6 @@ std::string canonical_id(const std::string& name, const std::vector<Parameter>& 
   }
   return fmt::format("{}:{}/{}{}", name, arguments.integer("size"), arguments.text("form"),
                      list.empty() ? "" : fmt::format("({})", fmt::join(list, ",")));
-}
-
-double physical_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
 /// A specification of a generated scene, understood and found to fit into memory.
