@@ -6,18 +6,12 @@ namespace rayshoot {
 
 namespace {
 
-/// Coordinates beyond this would overflow when multiplied with one another.
-template <class Real>
-Real largest_coordinate() {
-  return std::sqrt(std::numeric_limits<Real>::max()) / 4;
-}
-
 /// Why a set of coordinates cannot be traced in `Real`; empty when it can.
 template <class Real>
 std::string unusable(std::initializer_list<Vec3d> points) {
   for (const Vec3d& point : points) {
     if (!is_finite(point)) return "not finite";
-    if (!(max_abs(point) <= static_cast<double>(largest_coordinate<Real>()))) return "out of range";
+    if (!in_range<Real>(point)) return "out of range";
   }
   return {};
 }
@@ -164,6 +158,7 @@ Geometry<Real> Geometry<Real>::arranged(std::span<const std::uint32_t> order) co
   result.vertices_ = vertices_;
   result.bounds_ = bounds_;
   result.cone_sides_ = cone_sides_;
+  result.set_aside_ = set_aside_;
   result.mostly_triangles_ = mostly_triangles_;
   result.references_.reserve(order.size());
   result.scene_objects_.reserve(order.size());

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <span>
+
 #include "scenes/core/digest.h"
 #include "scenes/geometry/polygon.h"
 
@@ -20,14 +22,24 @@ const Vec3d& Scene::vertex(std::uint32_t object, std::uint32_t corner) const {
 }
 
 Box<double> Scene::bounds() const {
-  Box<double> box;
-  for (const Triangle<double>& triangle : triangles) {
-    box.include(triangle.a), box.include(triangle.b), box.include(triangle.c);
-  }
-  for (const Vec3d& vertex : polygon_vertices) box.include(vertex);
-  for (const Sphere<double>& sphere : spheres) box.include(exact_bounds(sphere));
-  for (const Cone<double>& cone : cones) box.include(exact_bounds(cone));
-  return box;
+  Box<double> all;
+  const auto include = [&](std::span<const Vec3d> points, const Box<double>& box) {
+    if (std::all_of(points.begin(), points.end(), in_range<double>) && !box.empty()) all.include(box);
+  };
+  const auto include_flat = [&](std::span<const Vec3d> vertices) {
+    Box<double> box;
+    for (const Vec3d& vertex : vertices) box.include(vertex);
+    include(vertices, box);
+  };
+  for (const auto& [a, b, c] : triangles) include_flat(std::array{a, b, c});
+  for (const VertexRange& range : polygons)
+    include_flat(std::span(polygon_vertices).subspan(range.first_vertex, range.vertex_count));
+  for (const Sphere<double>& sphere : spheres)
+    include(std::array{sphere.centre, Vec3d{sphere.radius, 0, 0}}, exact_bounds(sphere));
+  for (const Cone<double>& cone : cones)
+    include(std::array{cone.base, cone.apex, Vec3d{cone.base_radius, cone.apex_radius, 0}},
+            exact_bounds(cone));
+  return all;
 }
 
 std::array<std::size_t, 4> Scene::counts() const {
@@ -35,17 +47,24 @@ std::array<std::size_t, 4> Scene::counts() const {
 }
 
 bool same_content(const Scene& a, const Scene& b) {
-  return a.background == b.background && a.view == b.view && a.lights == b.lights && a.materials == b.materials &&
-         a.objects == b.objects && a.triangles == b.triangles && a.polygons == b.polygons &&
-         a.polygon_vertices == b.polygon_vertices && a.spheres == b.spheres && a.cones == b.cones &&
-         a.vertex_normals == b.vertex_normals;
+  return a.background == b.background && a.view == b.view && a.lights == b.lights &&
+         a.materials == b.materials && a.objects == b.objects && a.triangles == b.triangles &&
+         a.polygons == b.polygons && a.polygon_vertices == b.polygon_vertices && a.spheres == b.spheres &&
+         a.cones == b.cones && a.vertex_normals == b.vertex_normals;
 }
 
 std::string scene_hash(const Scene& scene) {
   Digest digest;
-  digest.add(scene.background), digest.add(scene.view.from), digest.add(scene.view.at), digest.add(scene.view.up);
-  for (const Light& light : scene.lights) digest.add(light.position);
-  for (const SceneObject& object : scene.objects) digest.add(std::array{static_cast<std::uint32_t>(object.kind), object.index});
+  const View& view = scene.view;
+  digest.add(scene.background), digest.add(view.from), digest.add(view.at), digest.add(view.up);
+  digest.add(std::array{view.angle, view.hither}), digest.add(std::array{view.width, view.height});
+  for (const Light& light : scene.lights) {
+    digest.add(light.position);
+    if (light.colour) digest.add(*light.colour);
+  }
+  for (const SceneObject& object : scene.objects)
+    digest.add(std::array{static_cast<std::uint32_t>(object.kind), object.index, object.material,
+                          object.first_normal});
   digest.add_all(scene.triangles), digest.add_all(scene.polygons), digest.add_all(scene.polygon_vertices);
   digest.add_all(scene.spheres), digest.add_all(scene.cones), digest.add_all(scene.vertex_normals);
   for (const Material& material : scene.materials) digest.add(material);
@@ -101,9 +120,12 @@ Vec3d cone_normal(const Cone<double>& cone, const Vec3d& point) {
 Vec3d surface_normal(const Scene& scene, std::uint32_t object, const Vec3d& point, bool smooth) {
   const SceneObject& entry = scene.objects[object];
   switch (entry.kind) {
-    case ObjectKind::sphere: return normalized(point - scene.spheres[entry.index].centre);
-    case ObjectKind::cone: return cone_normal(scene.cones[entry.index], point);
-    default: break;
+    case ObjectKind::sphere:
+      return normalized(point - scene.spheres[entry.index].centre);
+    case ObjectKind::cone:
+      return cone_normal(scene.cones[entry.index], point);
+    default:
+      break;
   }
   const bool interpolate = smooth && entry.first_normal != kNoObject;
   return interpolate ? smooth_normal(scene, object, point) : flat_normal(scene, object);

@@ -91,7 +91,8 @@ struct Scene {
   std::uint32_t vertex_count(std::uint32_t object) const;
   /// Vertex `corner` of object `object`, which must be a triangle or a polygon.
   const Vec3d& vertex(std::uint32_t object, std::uint32_t corner) const;
-  /// The exact bounds of all objects in double precision, before any padding.
+  /// The exact bounds of all objects in double precision, before any padding; objects that are not finite or
+  /// out of range are left out, as they are when tracing.
   Box<double> bounds() const;
   /// Number of objects of each kind, indexed by `ObjectKind`.
   std::array<std::size_t, 4> counts() const;

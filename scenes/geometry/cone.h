@@ -38,9 +38,11 @@ Box<Real> bounds(const Cone<Real>& cone) {
   return padded(Box<Real>{Vec3<Real>(box.lo), Vec3<Real>(box.hi)});
 }
 
-/// The quadratic f(t) = a t^2 + 2 b t + c that is negative inside the infinite cone, and what is needed to tell
-/// where along the axis a root lies.
+/// The quadratic f(s) = a s^2 + 2 b s + c that is negative inside the infinite cone, and what is needed to tell
+/// where along the axis a root lies. The parameter s counts from the point of the ray nearest to the cone's
+/// middle, at distance `nearest`, which keeps far origins from cancelling in the discriminant.
 struct ConeEquation {
+  double nearest;
   double a, b, c;
   double axial_origin, axial_direction;
   double height;
@@ -52,7 +54,9 @@ struct ConeEquation {
     const Vec3d axis = span * (1 / height);
     const double slope = (static_cast<double>(cone.apex_radius) - cone.base_radius) / height;
     const double radius = cone.base_radius;
-    const Vec3d origin = Vec3d(ray.origin) - base, direction(ray.direction);
+    const Vec3d direction(ray.direction), from_base = Vec3d(ray.origin) - base;
+    nearest = dot(span * 0.5 - from_base, direction) / dot(direction, direction);
+    const Vec3d origin = from_base + direction * nearest;
     axial_origin = dot(origin, axis);
     axial_direction = dot(direction, axis);
     const Vec3d across = direction - axis * axial_direction;
@@ -73,11 +77,11 @@ struct ConeEquation {
     return first < second ? std::array{first, second} : std::array{second, first};
   }
 
-  bool on_segment(double t) const {
-    const double height_at_hit = axial_origin + t * axial_direction;
+  bool on_segment(double s) const {
+    const double height_at_hit = axial_origin + s * axial_direction;
     return height_at_hit >= 0 && height_at_hit <= height;
   }
-  bool enters_at(double t) const { return a * t + b < 0; }
+  bool enters_at(double s) const { return a * s + b < 0; }
 };
 
 /// Ray-cone test in double precision: the nearest crossing between the end circles that lies in the ray's
@@ -88,9 +92,9 @@ Real hit_distance(const Cone<Real>& cone, const Ray<Real>& ray, bool outside_onl
   const ConeEquation equation(cone, ray);
   const auto roots = equation.roots();
   if (!roots) return kMiss<Real>;
-  for (const double t : *roots) {
-    if (!equation.on_segment(t) || (outside_only && !equation.enters_at(t))) continue;
-    const Real hit = confine(t, bounds(cone), ray);
+  for (const double s : *roots) {
+    if (!equation.on_segment(s) || (outside_only && !equation.enters_at(s))) continue;
+    const Real hit = confine(equation.nearest + s, bounds(cone), ray);
     if (hit < kMiss<Real>) return hit;
   }
   return kMiss<Real>;

@@ -9,16 +9,18 @@
 
 namespace rayshoot {
 
-/// Conservative surface-box tests: false only where the surface certainly does not reach the closed box. Each
-/// widens the box by the rounding of hit distances first, so that a hit found inside a box always belongs to an
-/// object that was assigned to that box.
+/// Conservative surface-box tests: false only where no point of the surface lies in the closed box, whatever
+/// the rounding of the test itself. They know nothing of rays: a hit point computed from a ray that starts
+/// far away may lie beside its surface by some units in the last place of that way. Who looks for hits in
+/// boxes must widen the boxes by that much before asking here.
 namespace overlap {
 
-/// Half the extent of a box in double precision, widened by 32 ulps of `Real` of its largest coordinate.
+/// Half the extent of a box in double precision, widened by 32 ulps of `Real` of the largest coordinate of
+/// the box and the object.
 template <class Real>
-Vec3d half_extent(const Box<Real>& box) {
-  const double margin =
-      32.0 * std::numeric_limits<Real>::epsilon() * static_cast<double>(std::max(max_abs(box.lo), max_abs(box.hi)));
+Vec3d half_extent(const Box<Real>& box, Real largest_of_object) {
+  const Real largest = std::max({max_abs(box.lo), max_abs(box.hi), largest_of_object});
+  const double margin = 32.0 * std::numeric_limits<Real>::epsilon() * static_cast<double>(largest);
   return (Vec3d(box.hi) - Vec3d(box.lo)) * 0.5 + Vec3d{margin, margin, margin};
 }
 
@@ -31,7 +33,9 @@ Vec3d centre(const Box<Real>& box) {
 /// box's own axes, the plane's normal, and the products of edges and axes.
 template <class Real>
 bool flat(std::span<const Vec3<Real>> vertices, const Vec3d& normal, const Box<Real>& box) {
-  const Vec3d middle = centre(box), half = half_extent(box);
+  Real largest = 0;
+  for (const Vec3<Real>& vertex : vertices) largest = std::max(largest, max_abs(vertex));
+  const Vec3d middle = centre(box), half = half_extent(box, largest);
   const auto separated_along = [&](const Vec3d& axis) {
     const double reach = half.x * std::abs(axis.x) + half.y * std::abs(axis.y) + half.z * std::abs(axis.z);
     double lowest = Box<double>::infinity(), highest = -lowest;
@@ -64,15 +68,17 @@ bool surface_overlaps(const Triangle<Real>& triangle, const Box<Real>& box) {
 }
 
 template <class Real>
-bool surface_overlaps(const Polygon<Real>& polygon, std::span<const Vec3<Real>> vertices, const Box<Real>& box) {
+bool surface_overlaps(const Polygon<Real>& polygon, std::span<const Vec3<Real>> vertices,
+                      const Box<Real>& box) {
   return overlap::flat<Real>(vertices, polygon.normal, box);
 }
 
-/// A sphere's surface reaches a box when the box's nearest point is inside and its farthest outside the sphere
-/// (Arvo 1990).
+/// A sphere's surface reaches a box when the box's nearest point is inside and its farthest outside the
+/// sphere (Arvo 1990).
 template <class Real>
 bool surface_overlaps(const Sphere<Real>& sphere, const Box<Real>& box) {
-  const Vec3d middle = overlap::centre(box), half = overlap::half_extent(box);
+  const Vec3d middle = overlap::centre(box);
+  const Vec3d half = overlap::half_extent(box, max_abs(sphere.centre) + sphere.radius);
   double nearest = 0, farthest = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double offset = std::abs(static_cast<double>(sphere.centre[axis]) - middle[axis]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rayshoot {
 
@@ -66,6 +67,14 @@ constexpr Vec3<Real> max(const Vec3<Real>& a, const Vec3<Real>& b) {
 template <class Real>
 Real max_abs(const Vec3<Real>& a) {
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+}
+
+/// Whether a point can be traced in `Real`: the square of a coordinate must not overflow. False for what is
+/// not a number.
+template <class Real>
+bool in_range(const Vec3d& p) {
+  const double limit = static_cast<double>(std::sqrt(std::numeric_limits<Real>::max()) / 4);
+  return std::abs(p.x) <= limit && std::abs(p.y) <= limit && std::abs(p.z) <= limit;
 }
 
 template <class Real>
