@@ -1,0 +1,116 @@
+#include "harness/plan/plan.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+
+#include "scenes/io/load_scene.h"
+
+namespace rayshoot {
+
+namespace {
+
+/// Rays of which a technique with a limit on objects is expected to be able to trace a batch at that limit.
+constexpr double kPracticalRays = 50'000;
+
+template <class Choice, class Key>
+void append_new(std::vector<Choice>& choices, Choice choice, const Key& key) {
+  const auto same = [&](const Choice& other) { return key(other) == key(choice); };
+  if (std::none_of(choices.begin(), choices.end(), same)) choices.push_back(std::move(choice));
+}
+
+/// Settings of the suite that stand in for the defaults of ray distributions.
+std::map<std::string, std::string> ray_defaults(const Suite& suite) {
+  std::map<std::string, std::string> defaults;
+  if (suite.resolution) defaults["resolution"] = std::to_string(*suite.resolution);
+  if (suite.rules) defaults["rules"] = *suite.rules;
+  return defaults;
+}
+
+std::vector<RaySpec> resolve_all_rays(const Suite& suite) {
+  const auto defaults = ray_defaults(suite);
+  std::vector<RaySpec> rays;
+  for (const std::string& text : suite.rays)
+    append_new(rays, resolve_rays(text, defaults), [](auto& r) { return r.id; });
+  for (const auto& setting : defaults) {
+    const auto takes = [&](const RaySpec& spec) { return spec.arguments.values().contains(setting.first); };
+    if (std::none_of(rays.begin(), rays.end(), takes))
+      throw InputError(fmt::format("no ray distribution of this run has a parameter '{}'", setting.first));
+  }
+  return rays;
+}
+
+/// The techniques asked for; "all" stands for every one, "baselines" for the points of comparison.
+std::vector<TechniqueChoice> choose_all_techniques(const Suite& suite) {
+  std::vector<TechniqueChoice> techniques;
+  const auto add = [&](const std::string& text) {
+    append_new(techniques, choose_technique(text), [](auto& t) { return t.spec; });
+  };
+  for (const std::string& text : suite.techniques) {
+    if (text != "all" && text != "baselines") {
+      add(text);
+      continue;
+    }
+    for (const TechniqueEntry* entry : catalogue())
+      if (text == "all" || entry->info.baseline) add(entry->info.id);
+  }
+  return techniques;
+}
+
+bool matches(const std::string& pattern, const std::string& text) {
+  return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
+}
+
+bool matches(const Exclusion& exclusion, const CellFacts& cell) {
+  const auto either = [&](const std::string& id, const std::string& spec) {
+    return matches(exclusion.technique, id) || matches(exclusion.technique, spec);
+  };
+  return matches(exclusion.scene, cell.scene.id) && matches(exclusion.rays, cell.rays.id) &&
+         either(cell.technique.entry->info.id, cell.technique.spec) &&
+         matches(exclusion.scalar, cell.scalar) &&
+         (exclusion.objects_over == 0 || cell.scene.size() > exclusion.objects_over) &&
+         (exclusion.rays_over == 0 || cell.ray_count > exclusion.rays_over);
+}
+
+/// Why a technique cannot serve, or not in reasonable time; empty when it can.
+std::string beyond_technique(const CellFacts& cell) {
+  const TechniqueEntry& entry = *cell.technique.entry;
+  if (!(cell.scalar == "float" ? entry.supports<float>() : entry.supports<double>()))
+    return fmt::format("{} does not trace in {}", entry.info.id, cell.scalar);
+  if (entry.info.max_practical_objects == UINT64_MAX) return {};
+  const double limit = static_cast<double>(entry.info.max_practical_objects);
+  const double objects = static_cast<double>(cell.scene.size()), rays = static_cast<double>(cell.ray_count);
+  if (objects > limit) return fmt::format("{} objects; {:g} are practical", cell.scene.size(), limit);
+  if (objects * rays > limit * kPracticalRays)
+    return fmt::format("{:.1e} pairs of ray and object; {:.1e} are practical", objects * rays,
+                       limit * kPracticalRays);
+  return {};
+}
+
+}  // namespace
+
+Plan make_plan(Suite suite) {
+  for (const std::string& scalar : suite.scalars)
+    if (scalar != "float" && scalar != "double")
+      throw InputError(unknown_name("scalar", scalar, {"float", "double"}));
+  Plan plan{.suite = std::move(suite)};
+  // Name each scene canonically, and only once.
+  std::vector<std::string> ids;
+  for (const std::string& spec : plan.suite.scenes)
+    append_new(ids, scene_id(spec, plan.suite.tessellation), [](auto& id) { return id; });
+  plan.suite.scenes = std::move(ids);
+  plan.rays = resolve_all_rays(plan.suite);
+  plan.techniques = choose_all_techniques(plan.suite);
+  return plan;
+}
+
+std::string why_left_out(const Suite& suite, const CellFacts& cell) {
+  const std::string no_rays = why_left_out(cell.rays, cell.scene);
+  if (!no_rays.empty()) return no_rays;
+  for (const Exclusion& exclusion : suite.exclude)
+    if (matches(exclusion, cell)) return exclusion.why;
+  return beyond_technique(cell);
+}
+
+}  // namespace rayshoot

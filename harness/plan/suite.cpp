@@ -1,0 +1,236 @@
+#include "harness/plan/suite.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "harness/plan/builtin.h"
+
+namespace rayshoot {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A place in a suite, for messages: "suite quick: scenes[2]".
+struct Place {
+  std::string path;
+
+  Place operator/(const std::string& member) const { return {path + ": " + member}; }
+  Place operator[](std::size_t index) const { return {fmt::format("{}[{}]", path, index)}; }
+  InputError refuse(const std::string& why) const { return InputError(path + ": " + why); }
+};
+
+/// How to read each member of an object; a member without an entry is an error.
+using Readers = std::map<std::string, std::function<void(const Json&, const Place&)>>;
+
+void read_object(const Json& json, const Place& place, const Readers& readers) {
+  if (!json.is_object()) throw place.refuse("must be an object");
+  std::vector<std::string> known;
+  for (const auto& reader : readers) known.push_back(reader.first);
+  for (const auto& [member, value] : json.items()) {
+    const auto reader = readers.find(member);
+    if (reader == readers.end()) throw place.refuse(unknown_name("member", member, known));
+    reader->second(value, place / member);
+  }
+}
+
+template <class Number>
+auto number(Number& target, double minimum, double maximum) {
+  return [&target, minimum, maximum](const Json& json, const Place& place) {
+    const bool fits = std::is_integral_v<Number> ? json.is_number_integer() : json.is_number();
+    if (!fits || json.get<double>() < minimum || json.get<double>() > maximum)
+      throw place.refuse(fmt::format("{} is not accepted; it takes {} {:g} to {:g}", json.dump(),
+                                     std::is_integral_v<Number> ? "an integer" : "a number", minimum,
+                                     maximum));
+    target = json.get<Number>();
+  };
+}
+
+template <class Number>
+auto optional_number(std::optional<Number>& target, double minimum, double maximum) {
+  return [&target, minimum, maximum](const Json& json, const Place& place) {
+    number(target.emplace(), minimum, maximum)(json, place);
+  };
+}
+
+std::string text_of(const Json& json, const Place& place) {
+  if (!json.is_string()) throw place.refuse(fmt::format("{} is not accepted; it takes text", json.dump()));
+  return json.get<std::string>();
+}
+
+auto text(std::string& target) {
+  return [&target](const Json& json, const Place& place) { target = text_of(json, place); };
+}
+
+auto flag(bool& target) {
+  return [&target](const Json& json, const Place& place) {
+    if (!json.is_boolean())
+      throw place.refuse(fmt::format("{} is not accepted; it takes true or false", json.dump()));
+    target = json.get<bool>();
+  };
+}
+
+/// A list, or one element that stands for a list of one; `read` is called for each element.
+void for_each(const Json& json, const Place& place,
+              const std::function<void(const Json&, const Place&)>& read) {
+  if (!json.is_array()) return read(json, place);
+  if (json.empty()) throw place.refuse("the list is empty");
+  for (std::size_t i = 0; i < json.size(); ++i) read(json[i], place[i]);
+}
+
+/// A parameter's value as it is written in a specification.
+std::string value_text(const Json& json, const Place& place) {
+  if (json.is_boolean()) return json.get<bool>() ? "on" : "off";
+  if (json.is_number()) return json.dump();
+  return text_of(json, place);
+}
+
+/// A specification with parameters chosen so far.
+struct PartialSpec {
+  std::string name, size, form, arguments;
+
+  std::string text() const {
+    return name + (size.empty() ? "" : ":" + size) + (arguments.empty() ? "" : "(" + arguments + ")") +
+           (form.empty() ? "" : "/" + form);
+  }
+  PartialSpec with(const std::string& key, const std::string& value) const {
+    PartialSpec result = *this;
+    if (key == "size")
+      result.size = value;
+    else if (key == "form")
+      result.form = value;
+    else
+      result.arguments += (arguments.empty() ? "" : ",") + key + "=" + value;
+    return result;
+  }
+};
+
+/// {"name": "grid", "density": [1, 2], "mailbox": "on"}: one specification for every combination of values.
+std::vector<std::string> combinations(const Json& json, const Place& place) {
+  if (!json.contains("name")) throw place.refuse("has no member 'name'");
+  std::vector<PartialSpec> specs{{.name = text_of(json["name"], place / "name")}};
+  for (const auto& [key, values] : json.items()) {
+    if (key == "name") continue;
+    std::vector<PartialSpec> longer;
+    for_each(values, place / key, [&, &name = key](const Json& value, const Place& where) {
+      for (const PartialSpec& spec : specs) longer.push_back(spec.with(name, value_text(value, where)));
+    });
+    specs = std::move(longer);
+  }
+  std::vector<std::string> texts;
+  for (const PartialSpec& spec : specs) texts.push_back(spec.text());
+  return texts;
+}
+
+auto specifications(std::vector<std::string>& target) {
+  return [&target](const Json& json, const Place& place) {
+    target.clear();
+    for_each(json, place, [&](const Json& entry, const Place& where) {
+      const auto texts = entry.is_object() ? combinations(entry, where) : std::vector{text_of(entry, where)};
+      target.insert(target.end(), texts.begin(), texts.end());
+    });
+  };
+}
+
+auto integers(std::vector<int>& target, double minimum, double maximum) {
+  return [&target, minimum, maximum](const Json& json, const Place& place) {
+    target.clear();
+    for_each(json, place, [&](const Json& entry, const Place& where) {
+      number(target.emplace_back(), minimum, maximum)(entry, where);
+    });
+  };
+}
+
+auto exclusions(std::vector<Exclusion>& target) {
+  return [&target](const Json& json, const Place& place) {
+    for_each(json, place, [&](const Json& entry, const Place& where) {
+      constexpr double any = static_cast<double>(std::numeric_limits<std::int64_t>::max());
+      Exclusion& exclusion = target.emplace_back();
+      read_object(entry, where,
+                  {{"scene", text(exclusion.scene)},
+                   {"rays", text(exclusion.rays)},
+                   {"technique", text(exclusion.technique)},
+                   {"scalar", text(exclusion.scalar)},
+                   {"objects_over", number(exclusion.objects_over, 0, any)},
+                   {"rays_over", number(exclusion.rays_over, 0, any)},
+                   {"why", text(exclusion.why)}});
+    });
+  };
+}
+
+Readers suite_readers(Suite& suite) {
+  constexpr double any = 1e18;
+  return {{"scenes", specifications(suite.scenes)},
+          {"rays", specifications(suite.rays)},
+          {"techniques", specifications(suite.techniques)},
+          {"scalars", specifications(suite.scalars)},
+          {"exclude", exclusions(suite.exclude)},
+          {"seed", number(suite.seed, 0, any)},
+          {"resolution", optional_number(suite.resolution, 1, 16384)},
+          {"rules", [&suite](const Json& json, const Place& place) { suite.rules = text_of(json, place); }},
+          {"tessellation", optional_number(suite.tessellation, 1, 1000)},
+          {"threads", number(suite.threads, 1, 1024)},
+          {"thread_scaling", integers(suite.thread_scaling, 1, 1024)},
+          {"counts_only", flag(suite.counts_only)},
+          {"repetitions", number(suite.repetitions, 1, 1000)},
+          {"build_seconds", number(suite.build_seconds, 0, any)},
+          {"trace_seconds", number(suite.trace_seconds, 0, any)},
+          {"check_tests", number(suite.check_tests, 0, any)},
+          {"strict_tests", number(suite.strict_tests, 0, any)}};
+}
+
+/// Parse JSON with comments; a member that is given twice is an error.
+Json parse_json(const std::string& text, const Place& place) {
+  std::vector<std::set<std::string>> members;
+  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) members.emplace_back();
+    if (event == Json::parse_event_t::object_end) members.pop_back();
+    if (event == Json::parse_event_t::key && !members.back().insert(parsed.get<std::string>()).second)
+      throw place.refuse(fmt::format("member '{}' is given twice", parsed.get<std::string>()));
+    return true;
+  };
+  try {
+    return Json::parse(text, watch, /*allow_exceptions=*/true, /*ignore_comments=*/true);
+  } catch (const Json::parse_error& error) {
+    const std::string message = error.what();
+    throw place.refuse("not JSON:" + message.substr(message.find(']') + 1));
+  }
+}
+
+}  // namespace
+
+Suite parse_suite(const std::string& text, const std::string& name) {
+  const Place place{"suite " + name};
+  Suite suite;
+  suite.name = name;
+  read_object(parse_json(text, place), place, suite_readers(suite));
+  if (suite.scenes.empty()) throw place.refuse("has no scenes");
+  return suite;
+}
+
+std::vector<std::string> builtin_suites() {
+  std::vector<std::string> names;
+  for (const auto& entry : builtin_suite_texts()) names.push_back(entry.first);
+  return names;
+}
+
+Suite load_suite(const std::string& name_or_path) {
+  const auto builtin = builtin_suite_texts().find(name_or_path);
+  if (builtin != builtin_suite_texts().end()) return parse_suite(builtin->second, builtin->first);
+  if (!std::filesystem::exists(name_or_path))
+    throw InputError(unknown_name("suite", name_or_path, builtin_suites()) + "; or the path of a suite file");
+  std::ifstream file(name_or_path);
+  std::ostringstream text;
+  if (!(text << file.rdbuf())) throw InputError(fmt::format("{}: cannot be read", name_or_path));
+  return parse_suite(text.str(), name_or_path);
+}
+
+}  // namespace rayshoot
