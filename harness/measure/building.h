@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/plan/plan.h"
+
+namespace rayshoot {
+
+/// A technique, built; or the reason why it could not be.
+template <class Real>
+struct Built {
+  const TechniqueChoice* choice = nullptr;
+  std::unique_ptr<Engine<Real>> engine;
+  std::vector<double> build_ns;
+  std::string failure;
+};
+
+/// Build a technique once. `recorded` is for techniques that need it.
+template <class Real>
+Built<Real> build_once(const TechniqueChoice& technique, const Geometry<Real>& geometry,
+                       const RecordedHits<Real>* recorded);
+
+/// Build techniques that have been built again and again, in turns, until there are `repetitions` times of
+/// each or `seconds` are spent on it. What is built is thrown away.
+template <class Real>
+void repeat_builds(std::vector<Built<Real>>& built, const Geometry<Real>& geometry,
+                   const RecordedHits<Real>* recorded, int repetitions, double seconds,
+                   const std::function<bool()>& stopped);
+
+/// How often something that takes `seconds` fits into a budget: 1 to `wanted` times.
+int affordable_repetitions(double budget, double seconds, int wanted);
+
+/// Wall time of a call.
+double seconds_of(const std::function<void()>& function);
+
+/// Call `function`; returns what went wrong, in words, or nothing.
+std::string failure_of(const std::function<void()>& function);
+
+}  // namespace rayshoot

@@ -1,0 +1,127 @@
+#include "harness/measure/counting.h"
+
+#include <algorithm>
+#include <random>
+
+namespace rayshoot {
+
+namespace {
+
+/// Rays whose strict work is counted first, to learn how many more are affordable.
+constexpr std::size_t kProbeRays = 256;
+
+report::Work record(const Work& work) {
+  return {.rays = work.rays,
+          .object_tests = work.object_tests,
+          .distinct_objects = work.distinct_objects,
+          .volume_tests = work.volume_tests,
+          .steps = work.steps,
+          .cells = work.cells,
+          .empty_cells = work.empty_cells,
+          .mailbox_hits = work.mailbox_hits};
+}
+
+/// M: the mean number of distinct candidates over the number of objects, equation (21), with the 95 %
+/// interval of the mean.
+struct Mean {
+  double m = 0;
+  std::array<double, 2> ci95{};
+};
+
+Mean efficiency(const CountedWork& counted, std::uint32_t objects) {
+  if (counted.total.rays == 0 || objects == 0) return {};
+  const double rays = static_cast<double>(counted.total.rays);
+  const double mean = static_cast<double>(counted.total.distinct_objects) / rays;
+  const double variance =
+      std::max(0.0, counted.distinct_squares / rays - mean * mean) * rays / std::max(1.0, rays - 1);
+  const double half_width = 1.959964 * std::sqrt(variance / rays);
+  return {mean / objects, {std::max(0.0, mean - half_width) / objects, (mean + half_width) / objects}};
+}
+
+template <class Real>
+CountedWork count_rays(const Engine<Real>& engine, Query query, std::span<const Ray<Real>> rays,
+                       ThreadScratch<Real>& scratch, int threads) {
+  std::vector<Hit<Real>> hits(rays.size());
+  return count_work(engine, query, rays, std::span(hits), scratch, threads);
+}
+
+/// Count the rays in small runs of neighbours, in random order, until `enough` says so. They are not copied, so that
+/// a technique which replays hits can tell which rays they are.
+template <class Real, class Enough>
+CountedWork count_sample(const Engine<Real>& engine, std::span<const Ray<Real>> rays, std::uint64_t seed,
+                         ThreadScratch<Real>& scratch, const Enough& enough) {
+  constexpr std::size_t kNeighbours = 16;
+  std::vector<std::size_t> starts;
+  for (std::size_t first = 0; first < rays.size(); first += kNeighbours) starts.push_back(first);
+  std::mt19937_64 generator(seed);
+  std::shuffle(starts.begin(), starts.end(), generator);
+  CountedWork counted;
+  for (const std::size_t first : starts) {
+    if (enough(counted)) break;
+    const std::size_t length = std::min(kNeighbours, rays.size() - first);
+    counted += count_rays(engine, Query::strict, rays.subspan(first, length), scratch, 1);
+  }
+  return counted;
+}
+
+/// Work of the strict optimizer, on all rays where that takes no more than `strict_tests` ray-object tests, else on a
+/// random sample that does.
+template <class Real>
+CountedWork count_strict(const Engine<Real>& engine, const Batch<Real>& batch, double strict_tests,
+                         std::uint64_t seed, ThreadScratch<Real>& scratch, int threads) {
+  const CountedWork probe =
+      count_sample<Real>(engine, batch.all(), seed, scratch,
+                         [](const CountedWork& counted) { return counted.total.rays >= kProbeRays; });
+  const double tests_per_ray =
+      static_cast<double>(probe.total.object_tests) / std::max(1.0, static_cast<double>(probe.total.rays));
+  if (tests_per_ray * static_cast<double>(batch.rays.size()) <= strict_tests)
+    return count_rays(engine, Query::strict, batch.all(), scratch, threads);
+  return count_sample<Real>(engine, batch.all(), seed, scratch, [&](const CountedWork& counted) {
+    return counted.total.rays >= kProbeRays &&
+           static_cast<double>(counted.total.object_tests) >= strict_tests;
+  });
+}
+
+/// The fraction of rays whose interval meets a box.
+template <class Real>
+double fraction_hitting(const Box<Real>& box, const Batch<Real>& batch) {
+  const auto hits = [&](const Ray<Real>& ray) {
+    const Interval<Real> inside = Crossings<Real>(ray).inside(box);
+    return inside.enter <= inside.exit && inside.exit > ray.t_min && inside.enter <= ray.t_max;
+  };
+  const auto count = std::count_if(batch.rays.begin(), batch.rays.end(), hits);
+  return batch.rays.empty() ? 0 : static_cast<double>(count) / static_cast<double>(batch.rays.size());
+}
+
+}  // namespace
+
+template <class Real>
+Counts count(const Engine<Real>& engine, const Batch<Real>& batch, std::uint32_t objects, double strict_tests,
+             std::uint64_t seed, int threads) {
+  ThreadScratch<Real> scratch(engine);
+  CountedWork counted = count_rays(engine, Query::closest, batch.closest(), scratch, threads);
+  counted += count_rays(engine, Query::any, batch.any(), scratch, threads);
+  const CountedWork strict = count_strict(engine, batch, strict_tests, seed, scratch, threads);
+  const Mean m = efficiency(counted, objects), m_strict = efficiency(strict, objects);
+  return {record(counted.total), record(strict.total), {m.m, m.ci95, m_strict.m, m_strict.ci95}};
+}
+
+template <class Real>
+std::optional<report::Predicted> predict(const Engine<Real>& engine, const Batch<Real>& batch) {
+  const auto prediction = engine.predicted();
+  if (!prediction) return std::nullopt;
+  // A technique that tests no volume is not shielded by its root: every ray costs it the same.
+  if (prediction->volume_tests == 0) return report::Predicted{prediction->object_tests, 0};
+  const double fraction = fraction_hitting(prediction->root, batch);
+  return report::Predicted{fraction * prediction->object_tests,
+                           fraction * prediction->volume_tests + (1 - fraction)};
+}
+
+template Counts count<float>(const Engine<float>&, const Batch<float>&, std::uint32_t, double, std::uint64_t,
+                             int);
+template Counts count<double>(const Engine<double>&, const Batch<double>&, std::uint32_t, double,
+                              std::uint64_t, int);
+template std::optional<report::Predicted> predict<float>(const Engine<float>&, const Batch<float>&);
+template std::optional<report::Predicted> predict<double>(const Engine<double>&, const Batch<double>&);
+
+}  // namespace rayshoot

@@ -1,0 +1,259 @@
+#include "harness/measure/group.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "harness/measure/building.h"
+#include "harness/measure/counting.h"
+#include "harness/measure/timing.h"
+#include "harness/verify/oracle.h"
+
+namespace rayshoot {
+
+namespace {
+
+/// Passes are repeated within a repetition up to this length.
+constexpr double kShortSeconds = 0.01;
+/// Passes longer than this are not warmed up again: checking their answers has done that.
+constexpr double kLongSeconds = 0.25;
+
+std::map<std::string, report::ConfigValue> config_of(const Arguments& arguments) {
+  std::map<std::string, report::ConfigValue> config;
+  for (const auto& [name, value] : arguments.values())
+    std::visit([&config, &key = name](const auto& v) { config.emplace(key, v); }, value);
+  return config;
+}
+
+report::Structure record(const StructureStats& stats) {
+  return {.nodes = stats.nodes,
+          .leaves = stats.leaves,
+          .empty_leaves = stats.empty_leaves,
+          .references = stats.references,
+          .max_depth = stats.max_depth,
+          .bytes = stats.bytes};
+}
+
+std::string query_of(const RaySet& set) {
+  if (set.closest_rays == set.rays.size()) return "closest";
+  return set.closest_rays == 0 ? "any" : "closest+any";
+}
+
+/// A cell on its way through the steps of a measurement.
+template <class Real>
+struct Cell {
+  const Built<Real>* built;
+  report::Measurement measurement;
+  std::unique_ptr<ThreadScratch<Real>> scratch;
+  std::optional<Answers<Real>> answers;
+  double pass_seconds = 0;
+
+  const Engine<Real>& engine() const { return *built->engine; }
+  bool timeable() const {
+    return measurement.verdict.status == report::Status::ok ||
+           measurement.verdict.status == report::Status::graded;
+  }
+};
+
+template <class Real>
+class Group {
+ public:
+  Group(const GroupInput& input, report::Report& report, RunObserver& observer,
+        const std::function<bool()>& stopped)
+      : input_(input),
+        suite_(input.plan.suite),
+        report_(report),
+        observer_(observer),
+        stopped_(stopped),
+        all_threads_(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
+        geometry_(input.scene, input.cone_sides) {
+    record_set_aside(report.scenes.back());
+  }
+
+  /// Build what all rays share, then measure rays after rays.
+  void run() {
+    const auto searching = build(
+        [&](const TechniqueChoice& technique) {
+          const auto serves = [&](const PreparedRays* rays) { return wanted(technique, *rays); };
+          return !technique.entry->info.needs_recorded_hits &&
+                 std::any_of(input_.rays.begin(), input_.rays.end(), serves);
+        },
+        nullptr);
+    for (const PreparedRays* rays : input_.rays)
+      if (!stopped_()) measure(*rays, searching);
+  }
+
+ private:
+  /// Objects by the reason for which they are not traced: the most that any precision has.
+  void record_set_aside(report::Scene& scene) const {
+    std::map<std::string, std::uint64_t> counts;
+    for (const SetAside& object : geometry_.set_aside()) ++counts[object.reason];
+    for (const auto& [reason, count] : counts)
+      scene.set_aside[reason] = std::max(scene.set_aside[reason], count);
+  }
+
+  void announce(const std::string& step) const {
+    observer_.doing(fmt::format("{} {}: {}", input_.scene.id, input_.scalar, step));
+  }
+
+  bool wanted(const TechniqueChoice& technique, const PreparedRays& rays) const {
+    return why_left_out(suite_, {input_.scene, *rays.spec, rays.set.rays.size(), technique, input_.scalar})
+        .empty();
+  }
+
+  template <class Choose>
+  std::vector<Built<Real>> build(const Choose& choose, const RecordedHits<Real>* recorded) {
+    std::vector<Built<Real>> built;
+    for (const TechniqueChoice& technique : input_.plan.techniques) {
+      if (stopped_() || !choose(technique)) continue;
+      announce("building " + technique.spec);
+      built.push_back(build_once(technique, geometry_, recorded));
+    }
+    if (!suite_.counts_only)
+      repeat_builds(built, geometry_, recorded, suite_.repetitions, suite_.build_seconds, stopped_);
+    return built;
+  }
+
+  /// Verify, then count, then time.
+  void measure(const PreparedRays& rays, const std::vector<Built<Real>>& searching) {
+    const Batch<Real> batch(rays.set);
+    announce(fmt::format("searching {} exhaustively", rays.set.id));
+    Oracle<Real> oracle(geometry_, batch, suite_.check_tests, suite_.seed, all_threads_);
+    const RecordedHits<Real> recorded = oracle.recorded();
+    const auto replaying = build(
+        [&](const TechniqueChoice& technique) {
+          return technique.entry->info.needs_recorded_hits && wanted(technique, rays);
+        },
+        &recorded);
+
+    std::vector<Cell<Real>> cells;
+    for (const auto* built : {&searching, &replaying})
+      for (const Built<Real>& one : *built)
+        if (wanted(*one.choice, rays)) cells.push_back(new_cell(one, rays.set));
+    verify(cells, batch, oracle);
+    for (Cell<Real>& cell : cells) count_cell(cell, batch);
+    if (!suite_.counts_only) time(cells, batch);
+    keep_complete(cells);
+  }
+
+  Cell<Real> new_cell(const Built<Real>& built, const RaySet& set) const {
+    Cell<Real> cell{.built = &built};
+    cell.measurement = {.scene = input_.scene.id,
+                        .rays = fmt::format("{}/{}", input_.scene.id, set.id),
+                        .technique = built.choice->entry->info.id,
+                        .config = config_of(built.choice->arguments),
+                        .scalar = input_.scalar,
+                        .query = query_of(set),
+                        .build_ns = built.build_ns};
+    if (!built.engine) fail(cell, built.failure);
+    return cell;
+  }
+
+  static void fail(Cell<Real>& cell, const std::string& why) {
+    cell.measurement.verdict = {.status = report::Status::failed, .reference = "", .message = why};
+  }
+
+  void verify(std::vector<Cell<Real>>& cells, const Batch<Real>& batch, Oracle<Real>& oracle) {
+    std::vector<Statement<Real>> statements;
+    std::vector<Cell<Real>*> judged;
+    for (Cell<Real>& cell : cells) {
+      if (stopped_() || !cell.built->engine) continue;
+      announce("checking " + cell.built->choice->spec);
+      const std::string failure = failure_of([&] {
+        cell.scratch = std::make_unique<ThreadScratch<Real>>(cell.engine());
+        cell.answers.emplace(batch);
+        cell.pass_seconds =
+            seconds_of([&] { trace(cell.engine(), batch, *cell.answers, *cell.scratch, all_threads_); });
+      });
+      if (!failure.empty()) {
+        fail(cell, failure);
+        continue;
+      }
+      statements.push_back({&cell.built->choice->entry->info, &*cell.answers});
+      judged.push_back(&cell);
+    }
+    const auto verdicts = oracle.judge(statements);
+    for (std::size_t i = 0; i < judged.size(); ++i) judged[i]->measurement.verdict = verdicts[i];
+  }
+
+  void count_cell(Cell<Real>& cell, const Batch<Real>& batch) {
+    if (stopped_() || !cell.timeable()) return;
+    announce("counting " + cell.built->choice->spec);
+    report::Measurement& measurement = cell.measurement;
+    measurement.structure = record(cell.engine().structure());
+    measurement.predicted = predict(cell.engine(), batch);
+    if (!cell.engine().countable()) return;
+    const Counts counts =
+        count(cell.engine(), batch, geometry_.size(), suite_.strict_tests, suite_.seed, all_threads_);
+    measurement.work = counts.work;
+    measurement.strict_work = counts.strict_work;
+    measurement.efficiency = counts.efficiency;
+  }
+
+  TimedPass timed_pass(Cell<Real>& cell, const Batch<Real>& batch, int threads) const {
+    // The pass that was checked ran on all threads: their time together bounds that of one.
+    const double estimate = cell.pass_seconds * all_threads_ / threads;
+    return {.pass = [&cell, &batch,
+                     threads] { trace(cell.engine(), batch, *cell.answers, *cell.scratch, threads); },
+            .repetitions = affordable_repetitions(suite_.trace_seconds, estimate, suite_.repetitions),
+            .min_seconds = estimate > kLongSeconds ? 0 : kShortSeconds};
+  }
+
+  void time(std::vector<Cell<Real>>& cells, const Batch<Real>& batch) {
+    std::vector<TimedPass> passes;
+    std::vector<Cell<Real>*> timed;
+    std::vector<int> thread_counts{suite_.threads};
+    thread_counts.insert(thread_counts.end(), suite_.thread_scaling.begin(), suite_.thread_scaling.end());
+    for (Cell<Real>& cell : cells) {
+      if (!cell.timeable()) continue;
+      timed.push_back(&cell);
+      for (const int threads : thread_counts) passes.push_back(timed_pass(cell, batch, threads));
+    }
+    announce(fmt::format("timing {} techniques in turns", timed.size()));
+    const auto times = time_interleaved(passes, stopped_);
+    for (std::size_t i = 0; i < passes.size(); ++i) {
+      report::Measurement& measurement = timed[i / thread_counts.size()]->measurement;
+      const std::size_t which = i % thread_counts.size();
+      if (which == 0)
+        measurement.trace_ns = times[i];
+      else
+        measurement.threads.push_back({thread_counts[which], times[i]});
+    }
+  }
+
+  /// Whether all steps of a cell were done: a run may have been stopped before.
+  bool complete(const Cell<Real>& cell) const {
+    if (!cell.timeable()) return true;
+    return suite_.counts_only ? !stopped_() : !cell.measurement.trace_ns.empty();
+  }
+
+  void keep_complete(std::vector<Cell<Real>>& cells) {
+    for (Cell<Real>& cell : cells)
+      if (complete(cell)) report_.measurements.push_back(std::move(cell.measurement));
+    observer_.finished(cells.size());
+  }
+
+  const GroupInput& input_;
+  const Suite& suite_;
+  report::Report& report_;
+  RunObserver& observer_;
+  const std::function<bool()>& stopped_;
+  int all_threads_;
+  Geometry<Real> geometry_;
+};
+
+}  // namespace
+
+template <class Real>
+void run_group(const GroupInput& input, report::Report& report, RunObserver& observer,
+               const std::function<bool()>& stopped) {
+  Group<Real>(input, report, observer, stopped).run();
+}
+
+template void run_group<float>(const GroupInput&, report::Report&, RunObserver&,
+                               const std::function<bool()>&);
+template void run_group<double>(const GroupInput&, report::Report&, RunObserver&,
+                                const std::function<bool()>&);
+
+}  // namespace rayshoot

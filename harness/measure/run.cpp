@@ -1,0 +1,144 @@
+#include "harness/measure/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "harness/measure/building.h"
+#include "harness/measure/environment.h"
+#include "harness/measure/group.h"
+#include "harness/verify/scene_tracer.h"
+#include "scenes/core/needs.h"
+#include "scenes/io/load_scene.h"
+
+namespace rayshoot {
+
+namespace {
+
+report::Bounds record(const Box<double>& box) {
+  return {{box.lo.x, box.lo.y, box.lo.z}, {box.hi.x, box.hi.y, box.hi.z}};
+}
+
+report::Scene record(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  report::Scene result{.id = scene.id,
+                       .generator = loaded.generator,
+                       .size = loaded.size,
+                       .form = loaded.form,
+                       .objects = scene.size(),
+                       .hash = scene_hash(scene)};
+  for (std::size_t kind = 0; kind < kObjectKindNames.size(); ++kind)
+    result.counts[kObjectKindNames[kind]] = scene.counts()[kind];
+  if (const Box<double> bounds = scene.bounds(); !bounds.empty()) result.bounds = record(bounds);
+  const SceneNeeds needs = needs_of(scene);
+  result.needs = {{"shadow_rays", needs.shadow_rays},
+                  {"reflected_rays", needs.reflected_rays},
+                  {"refracted_rays", needs.refracted_rays},
+                  {"curved_objects", needs.curved_objects},
+                  {"triangles_only", needs.triangles_only}};
+  for (const LeftOut& line : left_out(needs)) result.left_out.push_back({line.what, line.why});
+  return result;
+}
+
+report::RaySet record(const RaySet& set, const std::string& scene) {
+  return {.id = fmt::format("{}/{}", scene, set.id),
+          .scene = scene,
+          .distribution = set.distribution,
+          .rules = set.rules.empty() ? std::nullopt : std::optional(set.rules),
+          .rays = set.rays.size(),
+          .closest_rays = set.closest_rays,
+          .any_rays = set.rays.size() - set.closest_rays,
+          .primary_rays = set.counts.primary_rays,
+          .primary_hits = set.counts.primary_hits,
+          .shadow_rays = set.counts.shadow_rays,
+          .shadow_hits = set.counts.shadow_hits,
+          .reflected_rays = set.counts.reflected_rays,
+          .refracted_rays = set.counts.refracted_rays,
+          .total_internal_reflections = set.counts.total_internal_reflections,
+          .secondary_hits = set.counts.secondary_hits,
+          .hash = set.hash()};
+}
+
+/// One scene after the other; of each, rays first and then its groups of cells.
+class Runner {
+ public:
+  Runner(const Plan& plan, report::Report& report, RunObserver& observer,
+         const std::function<bool()>& stopped)
+      : plan_(plan), report_(report), observer_(observer), stopped_(stopped) {}
+
+  void run_scene(const std::string& spec) {
+    observer_.doing("loading " + spec);
+    const LoadedScene loaded = load_scene(spec);
+    report_.scenes.push_back(record(loaded));
+    const std::vector<PreparedRays> rays = prepare(loaded.scene);
+    for (const ConeSides sides : {ConeSides::both, ConeSides::outside})
+      for (const std::string& scalar : plan_.suite.scalars) run_group(loaded.scene, rays, sides, scalar);
+  }
+
+ private:
+  /// Generate all rays that the scene can have.
+  std::vector<PreparedRays> prepare(const Scene& scene) {
+    std::vector<PreparedRays> prepared;
+    std::map<ConeSides, SceneTracer> tracers;
+    for (const RaySpec& spec : plan_.rays) {
+      if (stopped_()) break;
+      observer_.doing(fmt::format("{}: shooting {}", scene.id, spec.id));
+      PreparedRays& rays = prepared.emplace_back(PreparedRays{&spec, {.id = spec.id}});
+      if (!why_left_out(spec, scene).empty()) continue;
+      const auto tracer = tracers.try_emplace(spec.cone_sides(), scene, spec.cone_sides(), threads_).first;
+      rays.set = make_rays(spec, scene, tracer->second.tracer(), plan_.suite.seed);
+      report_.ray_sets.push_back(record(rays.set, scene.id));
+    }
+    return prepared;
+  }
+
+  void run_group(const Scene& scene, const std::vector<PreparedRays>& rays, ConeSides sides,
+                 const std::string& scalar) {
+    GroupInput group{plan_, scene, sides, scalar, {}};
+    for (const PreparedRays& one : rays)
+      if (one.spec->cone_sides() == sides) group.rays.push_back(&one);
+    if (group.rays.empty() || stopped_()) return;
+    record_left_out(group);
+    if (scalar == "float")
+      rayshoot::run_group<float>(group, report_, observer_, stopped_);
+    else
+      rayshoot::run_group<double>(group, report_, observer_, stopped_);
+  }
+
+  void record_left_out(const GroupInput& group) {
+    std::size_t count = 0;
+    for (const PreparedRays* rays : group.rays)
+      for (const TechniqueChoice& technique : plan_.techniques) {
+        const std::string why = why_left_out(
+            plan_.suite, {group.scene, *rays->spec, rays->set.rays.size(), technique, group.scalar});
+        if (why.empty()) continue;
+        report_.left_out.push_back({group.scene.id, fmt::format("{}/{}", group.scene.id, rays->set.id),
+                                    technique.spec, group.scalar, why});
+        ++count;
+      }
+    observer_.finished(count);
+  }
+
+  const Plan& plan_;
+  report::Report& report_;
+  RunObserver& observer_;
+  const std::function<bool()>& stopped_;
+  int threads_ = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+};
+
+}  // namespace
+
+report::Report run(const Plan& plan, report::Run run, RunObserver& observer,
+                   const std::function<bool()>& stopped) {
+  report::Report report{.run = std::move(run), .environment = environment()};
+  Runner runner(plan, report, observer, stopped);
+  report.run.seconds = seconds_of([&] {
+    for (const std::string& scene : plan.suite.scenes)
+      if (!stopped()) runner.run_scene(scene);
+  });
+  report.run.complete = !stopped();
+  return report;
+}
+
+}  // namespace rayshoot
