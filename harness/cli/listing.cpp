@@ -26,4 +26,13 @@ std::string parameters_text(const std::vector<Parameter>& parameters) {
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
 }
 
+std::vector<std::string> needs_list(const SceneNeeds& needs) {
+  std::vector<std::string> words;
+  if (needs.shadow_rays) words.push_back("shadow rays");
+  if (needs.reflected_rays) words.push_back("reflected rays");
+  if (needs.refracted_rays) words.push_back("refracted rays");
+  if (needs.curved_objects) words.push_back("curved objects");
+  return words;
+}
+
 }  // namespace rayshoot::cli

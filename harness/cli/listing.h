@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/core/needs.h"
 #include "scenes/core/spec.h"
 
 namespace rayshoot::cli {
@@ -16,5 +17,8 @@ Json parameters_json(const std::vector<Parameter>& parameters);
 
 /// The same in words: "density=1 (0.001 to 1000), mailbox=auto (on|off|auto)"; "none" without any.
 std::string parameters_text(const std::vector<Parameter>& parameters);
+
+/// What tracing a scene calls for, a few words each.
+std::vector<std::string> needs_list(const SceneNeeds& needs);
 
 }  // namespace rayshoot::cli

@@ -55,18 +55,26 @@ int run(int count, const char* const* arguments) {
   CLI::App program("Benchmarks ray tracing acceleration techniques", "rayshoot");
   program.require_subcommand(1);
   add_rays(program);
+  add_render(program);
+  int status = 0;
+  add_run(program, fmt::format("{}", fmt::join(arguments, arguments + count, " ")), status);
+  add_scene(program);
   add_scenes(program);
+  add_table(program);
   add_techniques(program);
+  add_validate(program, status);
   try {
     program.parse(count, arguments);
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {
     return fail(explain(program, error));
-  } catch (const InputError& error) {
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory");
+  } catch (const std::runtime_error& error) {  // InputError, ReportError, and what the system refuses
     return fail(error.what());
   }
-  return 0;
+  return status;
 }
 
 }  // namespace

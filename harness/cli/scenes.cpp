@@ -5,7 +5,6 @@
 
 #include "harness/cli/commands.h"
 #include "harness/cli/listing.h"
-#include "scenes/core/needs.h"
 #include "scenes/core/registry.h"
 
 namespace rayshoot::cli {
@@ -17,13 +16,7 @@ std::vector<std::string> needs(const SceneGenerator& generator) {
   const SceneOptions options{.size = generator.min_size};
   SceneBuilder builder(options);
   generator.generate(options, Arguments(generator.parameters, {}, generator.id), builder);
-  const SceneNeeds needs = needs_of(std::move(builder).finish());
-  std::vector<std::string> words;
-  if (needs.shadow_rays) words.push_back("shadow rays");
-  if (needs.reflected_rays) words.push_back("reflected rays");
-  if (needs.refracted_rays) words.push_back("refracted rays");
-  if (needs.curved_objects) words.push_back("curved objects");
-  return words;
+  return needs_list(needs_of(std::move(builder).finish()));
 }
 
 void print_json() {

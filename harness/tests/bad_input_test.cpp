@@ -1,6 +1,9 @@
+// Bad usage and bad input, through the program: one line on stderr, nothing on stdout, status 2, nothing left behind.
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include "program.h"
 
@@ -8,32 +11,136 @@ namespace rayshoot::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 struct BadInput {
   std::string name;
   std::vector<std::string> arguments;
   /// What the message must say.
   std::string message;
+  /// Content of a file `input` that the arguments name.
+  std::string file = {};
+  std::string input = "input.nff";
 
-  friend void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
+  friend void PrintTo(const BadInput& bad, std::ostream* out) { *out << bad.name; }
 };
+
+std::vector<std::string> files_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename());
+  return names;
+}
 
 class BadInputTest : public ::testing::TestWithParam<BadInput> {};
 
 TEST_P(BadInputTest, GivesOneLineAndStatusTwo) {
-  const Outcome outcome = run_program(GetParam().arguments);
+  const TemporaryFolder folder;
+  const std::filesystem::path input = folder.path() / GetParam().input;
+  if (!GetParam().file.empty()) std::ofstream(input) << GetParam().file;
+  const Outcome outcome = run_program(GetParam().arguments, folder.path());
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.output, "");
   EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
   EXPECT_THAT(outcome.errors, HasSubstr(GetParam().message));
+  std::filesystem::remove(input);
+  EXPECT_THAT(files_in(folder.path()), IsEmpty());
 }
 
+const std::string kView = "v\nfrom 0 0 -5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\n";
+const std::string kMaterial = "f 1 1 1 1 0 0 0 1\n";
+
 INSTANTIATE_TEST_SUITE_P(
-    Cases, BadInputTest,
-    ::testing::Values(BadInput{"no_command", {}, "a command is required; known: "},
-                      BadInput{"unknown_command", {"sceens"}, "did you mean 'scenes'?"},
-                      BadInput{"unknown_option", {"scenes", "--jason"}, "did you mean '--json'?"},
-                      BadInput{"extra_argument", {"techniques", "more"}, "one argument too many"}),
+    Usage, BadInputTest,
+    ::testing::Values(
+        BadInput{"no_command", {}, "a command is required; known: "},
+        BadInput{"unknown_command", {"techniqes"}, "did you mean 'techniques'?"},
+        BadInput{"unknown_option", {"scenes", "--jason"}, "did you mean '--json'?"},
+        BadInput{"unknown_option_of_run", {"run", "--tecnique", "bvh_sah"}, "did you mean '--technique'?"},
+        BadInput{"extra_argument", {"techniques", "more"}, "one argument too many"},
+        BadInput{"missing_argument", {"scene"}, "SPEC"},
+        BadInput{"missing_value", {"run", "--seed"}, "--seed"},
+        BadInput{"not_a_number", {"run", "--seed", "one"}, "--seed"},
+        BadInput{"no_threads", {"run", "--threads", "0"}, "--threads"},
+        BadInput{"unknown_scalar", {"run", "--scalar", "half", "-o", "r.json"}, "known: float, double"},
+        BadInput{"unknown_rules", {"run", "--rules", "hanes", "-o", "r.json"}, "clean"},
+        BadInput{"rules_for_rays_without",
+                 {"run", "--rays", "chords", "--rules", "haines", "-o", "r.json"},
+                 "no ray distribution of this run has a parameter 'rules'"},
+        BadInput{"precision_of_a_mesh",
+                 {"scene", "tetra:1", "--export", "t.obj", "--precision", "9"},
+                 "--precision goes with"},
+        BadInput{
+            "precision_without_export", {"scene", "tetra:1", "--precision", "9"}, "--precision goes with"},
+        BadInput{"precision_too_high",
+                 {"scene", "tetra:1", "--export", "t.nff", "--precision", "18"},
+                 "--precision"},
+        BadInput{"unknown_format", {"scene", "tetra:1", "--export", "t.xyz"}, ".obj"},
+        BadInput{"unknown_picture", {"render", "tetra:1", "-o", "t.jpg"}, ".png"},
+        BadInput{"unknown_show", {"render", "tetra:1", "--show", "pretty", "-o", "t.png"}, "shaded"},
+        BadInput{"render_without_search",
+                 {"render", "tetra:1", "--technique", "zero_overhead", "-o", "t.png"},
+                 "zero_overhead"},
+        BadInput{
+            "unknown_law", {"validate", "--law", "equation-4", "--scene", "tetra:1"}, "known: equation-3"}),
+    [](const auto& instance) { return instance.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Names, BadInputTest,
+    ::testing::Values(
+        BadInput{"unknown_scene", {"scene", "bals:2"}, "did you mean 'balls'?"},
+        BadInput{"unknown_scene_of_run", {"run", "--scene", "bals", "-o", "r.json"}, "did you mean 'balls'?"},
+        BadInput{"unknown_scene_behind_a_known_one",
+                 {"run", "--scene", "balls:1", "--scene", "bals", "-o", "r.json"},
+                 "did you mean 'balls'?"},
+        BadInput{"unknown_technique",
+                 {"run", "--scene", "balls:1", "--technique", "bvh_sha", "-o", "r.json"},
+                 "did you mean 'bvh_sah'?"},
+        BadInput{"unknown_key",
+                 {"run", "--scene", "balls:1", "--technique", "bvh_sah(max_object=2)", "-o", "r.json"},
+                 "did you mean 'max_objects'?"},
+        BadInput{"value_out_of_range",
+                 {"run", "--scene", "balls:1", "--technique", "bvh_sah(max_objects=0)", "-o", "r.json"},
+                 "max_objects=0 is not accepted"},
+        BadInput{"unknown_rays",
+                 {"run", "--scene", "balls:1", "--rays", "primry", "-o", "r.json"},
+                 "did you mean 'primary'?"},
+        BadInput{"unknown_suite", {"run", "quik", "-o", "r.json"}, "did you mean 'quick'?"},
+        BadInput{"size_0", {"scene", "balls:0"}, "size=0 is not accepted"},
+        BadInput{"size_far_too_large", {"scene", "balls:30"}, "GiB"},
+        BadInput{"size_far_too_large_in_a_run", {"run", "--scene", "balls:30", "-o", "r.json"}, "GiB"},
+        BadInput{"size_not_a_number", {"scene", "balls:many"}, "size=many is not accepted"}),
+    [](const auto& instance) { return instance.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadInputTest,
+    ::testing::Values(
+        BadInput{"no_such_scene_file", {"scene", "none.nff"}, "none.nff"},
+        BadInput{"no_such_scene_file_of_run", {"run", "--scene", "none.nff", "-o", "r.json"}, "none.nff"},
+        BadInput{"truncated_nff",
+                 {"scene", "input.nff"},
+                 "input.nff:11: ",
+                 kView + kMaterial + "p 3\n0 0 0\n1 0 0\n"},
+        BadInput{"nan_in_nff", {"scene", "input.nff"}, "input.nff:9: ", kView + kMaterial + "s 0 nan 0 1\n"},
+        BadInput{"polygon_of_two_vertices",
+                 {"scene", "input.nff"},
+                 "input.nff:9: ",
+                 kView + kMaterial + "p 2\n0 0 0\n1 0 0\n"},
+        BadInput{
+            "negative_radius", {"scene", "input.nff"}, "input.nff:9: ", kView + kMaterial + "s 0 0 0 -1\n"},
+        BadInput{"unknown_member_of_a_suite",
+                 {"run", "suite.json", "-o", "r.json"},
+                 "did you mean 'scenes'?",
+                 R"({"scenses": ["balls:1"]})",
+                 "suite.json"},
+        BadInput{
+            "suite_that_is_not_json", {"run", "suite.json", "-o", "r.json"}, "not JSON", "{", "suite.json"},
+        BadInput{"unwritable_report",
+                 {"run", "--scene", "balls:1", "-o", "none/r.json"},
+                 "cannot write none/r.json"},
+        BadInput{
+            "unwritable_export", {"scene", "balls:1", "--export", "none/b.nff"}, "cannot write none/b.nff"},
+        BadInput{"unwritable_picture", {"render", "balls:1", "-o", "none/b.png"}, "cannot write none/b.png"}),
     [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -28,17 +26,24 @@ std::string contents(const std::filesystem::path& path) {
 
 }  // namespace
 
-Outcome run_program(const std::vector<std::string>& arguments, const std::string& directory) {
-  static std::atomic<int> runs = 0;
-  const std::string stem = fmt::format("{}/rayshoot_test_{}_{}",
-                                       std::filesystem::temp_directory_path().string(), getpid(), runs++);
-  const std::string output = stem + ".out", errors = stem + ".err";
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "rayshoot_test_XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& directory) {
+  const TemporaryFolder streams;
+  const std::string output = streams.path() / "output", errors = streams.path() / "errors";
   std::string command = fmt::format("cd {} && {}", quoted(directory), quoted(RAYSHOOT_PROGRAM));
   for (const std::string& argument : arguments) command.append(" ").append(quoted(argument));
   const int status = std::system(fmt::format("{} >{} 2>{}", command, quoted(output), quoted(errors)).c_str());
-  const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
-  std::filesystem::remove(output), std::filesystem::remove(errors);
-  return outcome;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
 }
 
 }  // namespace rayshoot::test

@@ -1,9 +1,22 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace rayshoot::test {
+
+/// A folder that is gone, with all in it, at the end of its scope.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 /// What a run of the program left behind.
 struct Outcome {
@@ -13,6 +26,6 @@ struct Outcome {
 };
 
 /// Run the built program with `arguments`, in `directory`, and wait. Output and errors are not terminals.
-Outcome run_program(const std::vector<std::string>& arguments, const std::string& directory = ".");
+Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& directory = ".");
 
 }  // namespace rayshoot::test
