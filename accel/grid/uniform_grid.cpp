@@ -13,7 +13,7 @@
 //            mailbox     auto: where some object is listed twice
 //            assignment  box lists an object in every cell its bounds touch; exact where its surface does: fewer
 //                        tests for large slanted objects, a longer build
-// Cost       Cleary and Wyvill: about 3/2 of the cube root of the number of cells in steps, and for each cell its share
+// Cost       Cleary and Wyvill: steps in proportion to the cube root of the number of cells, and for each its share
 //            of the objects, which falls with resolution while steps grow.
 // Weak       scenes of varying local complexity (Jevans 1990): one cell then holds the teapot, and a ray walks through
 //            the empty stadium.

@@ -14,6 +14,7 @@ void add_scene(CLI::App& program);
 /// Sets `status` to the program's exit status; `command_line` is what the report records.
 void add_run(CLI::App& program, const std::string& command_line, int& status);
 void add_scenes(CLI::App& program);
+void add_table(CLI::App& program);
 void add_techniques(CLI::App& program);
 void add_validate(CLI::App& program, int& status);
 

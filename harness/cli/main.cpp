@@ -60,6 +60,7 @@ int run(int count, const char* const* arguments) {
   add_run(program, fmt::format("{}", fmt::join(arguments, arguments + count, " ")), status);
   add_scene(program);
   add_scenes(program);
+  add_table(program);
   add_techniques(program);
   add_validate(program, status);
   try {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "analysis/tables/comparison.h"
 #include "harness/cli/commands.h"
 #include "harness/cli/progress.h"
 #include "harness/cli/writable.h"
@@ -94,7 +95,7 @@ int run_command(const Options& options, const std::string& command_line) {
     report = run(plan, started, progress, [] { return interrupts > 0; });
   }
   report::write_report(report, output);
-  fmt::print("report: {}\n", output);
+  fmt::print("{}\nReport: {}\n", analysis::render_comparison({report}, analysis::Format::text), output);
   if (!report.run.complete) return kInterrupted;
   return any_failure(report) ? kCheckFailed : 0;
 }

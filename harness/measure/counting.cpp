@@ -45,23 +45,41 @@ CountedWork count_rays(const Engine<Real>& engine, Query query, std::span<const 
   return count_work(engine, query, rays, std::span(hits), scratch, threads);
 }
 
+/// Count the rays in small runs of neighbours, in random order, until `enough` says so. They are not copied, so that
+/// a technique which replays hits can tell which rays they are.
+template <class Real, class Enough>
+CountedWork count_sample(const Engine<Real>& engine, std::span<const Ray<Real>> rays, std::uint64_t seed,
+                         ThreadScratch<Real>& scratch, const Enough& enough) {
+  constexpr std::size_t kNeighbours = 16;
+  std::vector<std::size_t> starts;
+  for (std::size_t first = 0; first < rays.size(); first += kNeighbours) starts.push_back(first);
+  std::mt19937_64 generator(seed);
+  std::shuffle(starts.begin(), starts.end(), generator);
+  CountedWork counted;
+  for (const std::size_t first : starts) {
+    if (enough(counted)) break;
+    const std::size_t length = std::min(kNeighbours, rays.size() - first);
+    counted += count_rays(engine, Query::strict, rays.subspan(first, length), scratch, 1);
+  }
+  return counted;
+}
+
+/// Work of the strict optimizer, on all rays where that takes no more than `strict_tests` ray-object tests, else on a
+/// random sample that does.
 template <class Real>
 CountedWork count_strict(const Engine<Real>& engine, const Batch<Real>& batch, double strict_tests,
                          std::uint64_t seed, ThreadScratch<Real>& scratch, int threads) {
-  std::vector<Ray<Real>> rays = batch.rays;
-  const auto in_random_order = [&] {
-    std::mt19937_64 generator(seed);
-    std::shuffle(rays.begin(), rays.end(), generator);
-  };
-  const auto first = [&](std::size_t count) { return std::span<const Ray<Real>>(rays).first(count); };
-  in_random_order();
-  const std::size_t probes = std::min(kProbeRays, rays.size());
-  const CountedWork probe = count_rays(engine, Query::strict, first(probes), scratch, threads);
-  const double tests_per_ray = std::max(
-      1.0, static_cast<double>(probe.total.object_tests) / std::max(1.0, static_cast<double>(probes)));
-  const double affordable = std::min(strict_tests / tests_per_ray, static_cast<double>(rays.size()));
-  const auto chosen = std::max(probes, static_cast<std::size_t>(affordable));
-  return chosen == probes ? probe : count_rays(engine, Query::strict, first(chosen), scratch, threads);
+  const CountedWork probe =
+      count_sample<Real>(engine, batch.all(), seed, scratch,
+                         [](const CountedWork& counted) { return counted.total.rays >= kProbeRays; });
+  const double tests_per_ray =
+      static_cast<double>(probe.total.object_tests) / std::max(1.0, static_cast<double>(probe.total.rays));
+  if (tests_per_ray * static_cast<double>(batch.rays.size()) <= strict_tests)
+    return count_rays(engine, Query::strict, batch.all(), scratch, threads);
+  return count_sample<Real>(engine, batch.all(), seed, scratch, [&](const CountedWork& counted) {
+    return counted.total.rays >= kProbeRays &&
+           static_cast<double>(counted.total.object_tests) >= strict_tests;
+  });
 }
 
 /// The fraction of rays whose interval meets a box.

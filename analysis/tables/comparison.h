@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/tables/groups.h"
+#include "analysis/tables/table.h"
+
+/// The tables of `rayshoot run` and `rayshoot table`.
+namespace rayshoot::analysis {
+
+/// One table for each scene, ray set and precision of each report: technique by technique, what it did, what
+/// equation (3) predicts, what it costs, and how that compares with zero_overhead and Embree.
+std::vector<Table> comparison_tables(const std::vector<report::Report>& reports);
+
+/// One table for each precision of each report with several groups: geometric means over them.
+std::vector<Table> overview_tables(const std::vector<report::Report>& reports);
+
+/// One table for each group in which thread scaling was measured.
+std::vector<Table> scaling_tables(const std::vector<report::Report>& reports);
+
+/// All of these; in CSV the comparison alone, whose rows have everything.
+std::string render_comparison(const std::vector<report::Report>& reports, Format format);
+
+/// A column of the comparison and where its cells come from.
+struct ComparisonColumn {
+  Column column;
+  Cell (*cell)(const Group& group, const Entry& entry);
+};
+
+const std::vector<ComparisonColumn>& comparison_columns();
+
+/// Columns that several tables share.
+Column technique_column();
+Column time_column();
+Column zero_overhead_column();
+Column embree_column();
+
+/// "[run] scene, rays, precision", the run where there are several reports.
+std::string title_of(const Group& group, bool several_reports);
+
+}  // namespace rayshoot::analysis

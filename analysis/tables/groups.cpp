@@ -1,0 +1,166 @@
+#include "analysis/tables/groups.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <tuple>
+
+namespace rayshoot::analysis {
+
+namespace {
+
+using report::Measurement;
+using report::Status;
+using Config = std::map<std::string, report::ConfigValue>;
+
+std::string text(const report::ConfigValue& value) {
+  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "on" : "off";
+  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+/// The entries of a configuration whose keys are wanted, each as "key=value".
+template <class Wanted>
+std::vector<std::string> assignments(const Config& config, const Wanted& wanted) {
+  std::vector<std::string> texts;
+  for (const auto& [key, value] : config)
+    if (wanted(key)) texts.push_back(fmt::format("{}={}", key, text(value)));
+  return texts;
+}
+
+/// The keys of a technique's configuration that have several values in a report, or are not always there.
+std::set<std::string> differing_keys(const report::Report& report, const std::string& technique) {
+  std::map<std::string, std::set<std::string>> values;
+  std::map<std::string, std::size_t> uses;
+  std::size_t measurements = 0;
+  for (const Measurement& measurement : report.measurements) {
+    if (measurement.technique != technique) continue;
+    ++measurements;
+    for (const auto& [key, value] : measurement.config) values[key].insert(text(value)), ++uses[key];
+  }
+  std::set<std::string> keys;
+  for (const auto& [key, texts] : values)
+    if (texts.size() > 1 || uses[key] < measurements) keys.insert(key);
+  return keys;
+}
+
+std::string label(const Measurement& measurement, const std::set<std::string>& keys) {
+  const auto texts =
+      assignments(measurement.config, [&](const std::string& key) { return keys.contains(key); });
+  if (texts.empty()) return measurement.technique;
+  return fmt::format("{}({})", measurement.technique, fmt::join(texts, ", "));
+}
+
+template <class Listed>
+const Listed* find(const std::vector<Listed>& list, const std::string& id) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const Listed& one) { return one.id == id; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+/// The group of a measurement or of a left out cell, which is new at first.
+template <class Of>
+Group& group_of(std::vector<Group>& groups, const report::Report& report, const Of& cell) {
+  const auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+    return std::tie(group.scene_id, group.rays_id, group.scalar) ==
+           std::tie(cell.scene, cell.rays, cell.scalar);
+  });
+  if (found != groups.end()) return *found;
+  return groups.emplace_back(Group{.report = &report,
+                                   .scene_id = cell.scene,
+                                   .rays_id = cell.rays,
+                                   .scalar = cell.scalar,
+                                   .scene = find(report.scenes, cell.scene),
+                                   .rays = find(report.ray_sets, cell.rays)});
+}
+
+const Measurement* fastest(const std::vector<Entry>& entries, const std::string& technique) {
+  const Measurement* best = nullptr;
+  for (const auto& [measurement, label, rays, zero_overhead, embree] : entries) {
+    if (measurement->technique != technique || measurement->trace_ns.empty()) continue;
+    if (!best || median(measurement->trace_ns)->value < median(best->trace_ns)->value) best = measurement;
+  }
+  return best;
+}
+
+void sort(std::vector<Entry>& entries) {
+  const auto key = [](const Entry& entry) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const Status status = entry.measurement->verdict.status;
+    const auto time = time_per_ray(entry);
+    return std::tuple(status == Status::failed  ? 2
+                      : status == Status::wrong ? 1
+                                                : 0,
+                      time ? time->value : none,
+                      per_ray(entry.measurement->work, &report::Work::object_tests).value_or(none));
+  };
+  std::stable_sort(entries.begin(), entries.end(),
+                   [&](const Entry& a, const Entry& b) { return key(a) < key(b); });
+}
+
+void compare(Group& group) {
+  const Measurement *zero_overhead = fastest(group.entries, kZeroOverhead),
+                    *embree = fastest(group.entries, kEmbree);
+  for (Entry& entry : group.entries) {
+    entry.rays = group.rays ? group.rays->rays : 0;
+    entry.zero_overhead = zero_overhead;
+    entry.embree = embree;
+  }
+  sort(group.entries);
+}
+
+}  // namespace
+
+std::vector<Group> groups(const report::Report& report) {
+  std::vector<Group> result;
+  std::map<std::string, std::set<std::string>> keys;
+  for (const Measurement& measurement : report.measurements) {
+    const std::string& technique = measurement.technique;
+    if (!keys.contains(technique)) keys[technique] = differing_keys(report, technique);
+    group_of(result, report, measurement)
+        .entries.push_back({&measurement, label(measurement, keys[technique])});
+  }
+  for (const report::LeftOutCell& cell : report.left_out)
+    group_of(result, report, cell).left_out.push_back(&cell);
+  for (Group& group : result) compare(group);
+  std::stable_sort(result.begin(), result.end(), [](const Group& a, const Group& b) {
+    // Both lead into one array; a scene that is not listed comes first.
+    return std::less<>()(a.scene, b.scene);
+  });
+  return result;
+}
+
+std::string config_text(const Config& config) {
+  return fmt::format("{}", fmt::join(assignments(config, [](const std::string&) { return true; }), ";"));
+}
+
+std::optional<Estimate> time_per_ray(const Entry& entry) {
+  auto time = median(entry.measurement->trace_ns);
+  if (!time || entry.rays == 0) return std::nullopt;
+  const double rays = static_cast<double>(entry.rays);
+  time->value /= rays;
+  if (auto& interval = time->interval) interval = {interval->low / rays, interval->high / rays};
+  return time;
+}
+
+std::optional<Estimate> times_zero_overhead(const Entry& entry) {
+  if (!entry.zero_overhead) return std::nullopt;
+  return ratio(entry.measurement->trace_ns, entry.zero_overhead->trace_ns);
+}
+
+std::optional<Estimate> times_embree(const Entry& entry) {
+  if (!entry.embree) return std::nullopt;
+  return ratio(entry.embree->trace_ns, entry.measurement->trace_ns);
+}
+
+std::optional<double> per_ray(const std::optional<report::Work>& work, std::uint64_t report::Work::*count) {
+  if (!work || work->rays == 0) return std::nullopt;
+  return static_cast<double>((*work).*count) / static_cast<double>(work->rays);
+}
+
+const std::optional<report::Work>& equation_3_basis(const Measurement& measurement) {
+  return measurement.strict_work ? measurement.strict_work : measurement.work;
+}
+
+}  // namespace rayshoot::analysis
