@@ -1,33 +1,8 @@
 #pragma once
 
-#include <cstdint>
-
 #include "scenes/geometry/ray.h"
 
 namespace rayshoot {
-
-/// Vectors handled by one instruction (the vector extension of GCC and Clang): four numbers, and half as
-/// many.
-template <class Real>
-struct LaneTypes;
-template <>
-struct LaneTypes<float> {
-  typedef float Four __attribute__((vector_size(16)));
-  typedef float Two __attribute__((vector_size(8)));
-};
-template <>
-struct LaneTypes<double> {
-  typedef double Four __attribute__((vector_size(32)));
-  typedef double Two __attribute__((vector_size(16)));
-};
-template <class Real>
-using Lanes = typename LaneTypes<Real>::Four;
-
-/// The larger of each pair.
-template <class Vector>
-inline Vector max_lanes(Vector a, Vector b) {
-  return a > b ? a : b;
-}
 
 /// Two boxes laid side by side: for every axis the lower planes of both, then the upper planes of both.
 template <class Real>

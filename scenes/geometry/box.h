@@ -42,12 +42,17 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// The box grown on every side by `ulps` units in the last place of its largest coordinate, so that a point
-/// computed with that many roundings still lies inside.
+/// `ulps` units in the last place of a box's largest coordinate: so far off may a point be that was computed
+/// with that many roundings.
+template <class Real>
+Real padding(Real largest_coordinate, int ulps = 4) {
+  return static_cast<Real>(ulps) * std::numeric_limits<Real>::epsilon() * largest_coordinate;
+}
+
+/// The box grown on every side, so that a point computed with `ulps` roundings still lies inside.
 template <class Real>
 Box<Real> padded(const Box<Real>& box, int ulps = 4) {
-  const Real pad =
-      static_cast<Real>(ulps) * std::numeric_limits<Real>::epsilon() * std::max(max_abs(box.lo), max_abs(box.hi));
+  const Real pad = padding(std::max(max_abs(box.lo), max_abs(box.hi)), ulps);
   const Vec3<Real> margin{pad, pad, pad};
   return {box.lo - margin, box.hi + margin};
 }

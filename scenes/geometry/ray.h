@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "scenes/geometry/box.h"
+#include "scenes/geometry/lanes.h"
 
 namespace rayshoot {
 
@@ -85,6 +85,20 @@ Real confine(double t, const Box<Real>& bounds, const Ray<Real>& ray) {
   const Interval<Real> inside = Crossings<Real>(ray).inside(bounds);
   if (!(inside.enter <= inside.exit)) return kMiss<Real>;
   const Real confined = std::clamp(static_cast<Real>(t), inside.enter, inside.exit);
+  return confined > ray.t_min && confined <= ray.t_max ? confined : kMiss<Real>;
+}
+
+/// The same for bounds in lanes, to the last bit.
+template <class Real>
+Real confine(double t, const LaneBox<Real>& bounds, const Ray<Real>& ray) {
+  const Lanes<Real> origin = read_lanes<Real>(ray, 0), direction = read_lanes<Real>(ray, 4);
+  const Lanes<Real> limit = Lanes<Real>{} + std::numeric_limits<Real>::max();
+  const Lanes<Real> unlimited = 1 / Lanes<Real>{direction[0], direction[1], direction[2], 1};
+  const Lanes<Real> inverse = min_lanes(limit, max_lanes(-limit, unlimited));
+  const Lanes<Real> one = (bounds.lo - origin) * inverse, other = (bounds.hi - origin) * inverse;
+  const Real enter = largest(min_lanes(one, other)), exit = smallest(max_lanes(one, other));
+  if (!(enter <= exit)) return kMiss<Real>;
+  const Real confined = std::clamp(static_cast<Real>(t), enter, exit);
   return confined > ray.t_min && confined <= ray.t_max ? confined : kMiss<Real>;
 }
 
