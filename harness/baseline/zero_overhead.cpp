@@ -28,18 +28,11 @@ class ZeroOverhead final : public Engine<Real> {
   std::unique_ptr<EngineScratch> scratch() const override { return std::make_unique<EngineScratch>(); }
 
   void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits, EngineScratch&) const override {
-    const std::span<const Hit<Real>> known = recorded(rays);
-    with_test([&](const auto& test) {
-      for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = replay(test, rays[i], known[i].object);
-    });
+    with_test([&](const auto& test) { replay(test, rays, recorded(rays), hits); });
   }
 
   void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked, EngineScratch&) const override {
-    const std::span<const Hit<Real>> known = recorded(rays);
-    with_test([&](const auto& test) {
-      for (std::size_t i = 0; i < rays.size(); ++i)
-        blocked[i] = replay(test, rays[i], known[i].object).object != kNoObject;
-    });
+    with_test([&](const auto& test) { replay(test, rays, recorded(rays), blocked); });
   }
 
   /// The strict query hands out the nearest hit as well: nothing but that is known.
@@ -74,17 +67,27 @@ class ZeroOverhead final : public Engine<Real> {
     return recorded_.hits.subspan(static_cast<std::size_t>(rays.data() - first), rays.size());
   }
 
-  /// Jevans' "zero overhead" algorithm: test the object that the ray is known to hit, if any.
-  template <class Test>
-  static Hit<Real> replay(const Test& test, const Ray<Real>& ray, std::uint32_t object) {
-    if (object == kNoObject) return {};
-    const Real t = test(object, ray);
-    return t <= ray.t_max ? Hit<Real>{t, object} : Hit<Real>{};
+  /// Jevans' "zero overhead" algorithm: test the object that each ray is known to hit, if any.
+  template <class Test, class Answer>
+  [[gnu::flatten, gnu::noinline]] static void replay(const Test& test, std::span<const Ray<Real>> rays,
+                                                     std::span<const Hit<Real>> known,
+                                                     std::span<Answer> answers) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      Hit<Real> hit;
+      if (const std::uint32_t object = known[i].object; object != kNoObject) {
+        const Real t = test(object, rays[i]);
+        if (t <= rays[i].t_max) hit = {t, object};
+      }
+      if constexpr (std::is_same_v<Answer, Hit<Real>>)
+        answers[i] = hit;
+      else
+        answers[i] = hit.object != kNoObject;
+    }
   }
 
   template <class Function>
   void with_test(const Function& function) const {
-    if (geometry_.triangles_only())
+    if (geometry_.mostly_triangles())
       function(ObjectTest<Real, true>{geometry_});
     else
       function(ObjectTest<Real, false>{geometry_});

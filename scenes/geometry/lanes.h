@@ -48,7 +48,7 @@ inline Lanes<Real> read_lanes(const Object& object, std::size_t first) {
 
 template <class Vector>
 inline WideLanes widened(Vector a) {
-  return __builtin_convertvector(a, WideLanes);
+  return WideLanes{double{a[0]}, double{a[1]}, double{a[2]}, double{a[3]}};
 }
 
 inline double dot(WideLanes a, WideLanes b) {

@@ -80,9 +80,8 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3<Real>
   while (ring.left() > 2 && fruitless < ring.left()) {
     const std::uint32_t next = ring.after(at);
     const double turn = ring.turn_at(at);
-    const bool ear = turn > 0 && ring.is_ear(at);
-    if (ear) triangles.push_back({ring.before(at), at, next});
-    if (ear || turn == 0) {
+    if (turn == 0 || (turn > 0 && ring.is_ear(at))) {
+      triangles.push_back({ring.before(at), at, next});
       ring.remove(at);
       fruitless = 0;
     } else {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scenes/io/mesh.h"
 #include "scenes/core/memory.h"
+#include "scenes/io/mesh.h"
 #include "scenes/io/nff.h"
 
 namespace rayshoot {

@@ -189,7 +189,7 @@ FaceList read_faces(const std::string& path) {
     std::istringstream plain(text);
     read_checked(plain, path, format, {}, importer);
   };
-  const auto read_raw = [&](OpenMesh::IO::Options options) {
+  const auto read_raw = [&](const OpenMesh::IO::Options& options) {
     in.clear();
     in.seekg(0);
     in.exceptions(std::ios::failbit | std::ios::badbit);

@@ -62,7 +62,7 @@ std::string ply_property(TextReader& text) {
   } else if (!is_real && std::count(kIntegers.begin(), kIntegers.end(), type) == 0) {
     text.fail(fmt::format("'{}' is not the type of a property", shown(type)));
   }
-  const std::string property(text.word());
+  std::string property(text.word());
   if (property.empty()) text.fail("the property has no name");
   const bool is_coordinate = property == "x" || property == "y" || property == "z";
   if (is_coordinate && !is_real) text.fail(fmt::format("the coordinate {} is not float or double", property));

@@ -40,7 +40,7 @@ double step(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
-const auto thick(double radius) {
+auto thick(double radius) {
   return [=](double) { return radius; };
 }
 
@@ -143,8 +143,9 @@ void wheel(Sculptor& sculptor, double x, double side) {
                    return std::pair{0.185 - 0.03 * std::sin(kPi * v), 0.16 * (v - 0.5)};
                  }));
   for (int spoke = 0; spoke < 10; ++spoke) {
-    const Vec3d inner = on_circle((spoke / 2 + 0.12 * (spoke % 2)) / 5.0) * 0.04;
-    const Vec3d outer = on_circle((spoke / 2 + 0.3 * (spoke % 2)) / 5.0) * 0.175;
+    const int pair = spoke / 2, twin = spoke % 2;
+    const Vec3d inner = on_circle((pair + 0.12 * twin) / 5.0) * 0.04;
+    const Vec3d outer = on_circle((pair + 0.3 * twin) / 5.0) * 0.175;
     sculptor.sheet({3, 3},
                    rod(frame(inner + Vec3d{0, 0, 0.05}), frame(outer + Vec3d{0, 0, 0.03}), 0.018, 0.012));
   }
@@ -169,8 +170,9 @@ void engine(Sculptor& sculptor) {
   sculptor.material(kIron);
   sculptor.closed_sheet({8, 6}, rounded_box(translation(centre), {0.35, 0.2, 0.13}, 0.3));
   for (int k = 0; k < 8; ++k) {
+    const int row = k / 2;
     const double side = k % 2 ? 1 : -1;
-    const Vec3d head = centre + Vec3d{0.17 * (k / 2) - 0.26, 0.12 * side, 0.08};
+    const Vec3d head = centre + Vec3d{0.17 * row - 0.26, 0.12 * side, 0.08};
     const Vec3d top = head + Vec3d{0, 0.09 * side, 0.12};
     sculptor.material(kIron);
     sculptor.sheet({6, 3}, rod(head, top, 0.06, 0.05));

@@ -102,6 +102,7 @@ class Sculptor {
   std::vector<Vec3d> ring(const Cells& cells, const Surface& point, double v) const {
     const int around = cells.around * size_;
     std::vector<Vec3d> points;
+    points.reserve(static_cast<std::size_t>(around) + 1);
     for (int i = 0; i < around; ++i) points.push_back(point(static_cast<double>(i) / around, v));
     points.push_back(cells.seam == Seam::none ? point(1.0, v) : points.front());
     return points;

@@ -29,13 +29,14 @@ double object_count(const SceneOptions& options, const Arguments& arguments) {
 /// How the polygons are shared out.
 struct Shares {
   int around, along;
-  double seats;
+  long long seats;
 };
 
 Shares share_out(double polygons) {
   const double cells = 0.98 * (polygons - kFixedPolygons) / 2;
   const double around = std::floor(std::sqrt(cells / 2)), along = std::floor(cells / around);
-  return {static_cast<int>(around), static_cast<int>(along), polygons - kFixedPolygons - 2 * around * along};
+  return {static_cast<int>(around), static_cast<int>(along),
+          static_cast<long long>(polygons - kFixedPolygons - 2 * around * along)};
 }
 
 /// A point of the bowl of a stadium of length 1: v from 0 at the field to 1 at the top.
@@ -60,19 +61,20 @@ void seat(SceneBuilder& builder, double number, double scale) {
                              (corner + height) * scale});
 }
 
-void stands(SceneBuilder& builder, double scale, double seats) {
+void stands(SceneBuilder& builder, double scale, long long seats) {
   builder.material({{0.65, 0.65, 0.68}, 0.9, 0, 100000, 0, 1});
   for (int tier = 0; tier < kTiers; ++tier)
     for (int sector = 0; sector < kSectors; ++sector) {
-      const double u0 = static_cast<double>(sector) / kSectors, u1 = (sector + 1.0) / kSectors;
+      const double u0 = static_cast<double>(sector) / kSectors;
+      const double u1 = static_cast<double>((sector + 1) % kSectors) / kSectors;
       const double v0 = static_cast<double>(tier) / kTiers, v1 = (tier + 1.0) / kTiers;
       builder.polygon(
           std::array{bowl(u1, v0) * scale, bowl(u0, v0) * scale, bowl(u0, v1) * scale, bowl(u1, v1) * scale});
     }
   builder.material({{0.75, 0.1, 0.1}, 0.9, 0, 100000, 0, 1});
-  for (double k = 0; k < seats; ++k) {
-    if (k == std::floor(seats / 2)) builder.material({{0.1, 0.2, 0.7}, 0.9, 0, 100000, 0, 1});
-    seat(builder, k, scale);
+  for (long long k = 0; k < seats; ++k) {
+    if (k == seats / 2) builder.material({{0.1, 0.2, 0.7}, 0.9, 0, 100000, 0, 1});
+    seat(builder, static_cast<double>(k), scale);
   }
 }
 

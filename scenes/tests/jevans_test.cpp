@@ -36,6 +36,7 @@ double volume_holding(const Scene& scene, double share) {
     ++cells[cell];
   }
   std::vector<std::size_t> counts;
+  counts.reserve(cells.size());
   for (const auto& [cell, count] : cells) counts.push_back(count);
   std::sort(counts.begin(), counts.end(), std::greater());
   std::size_t held = 0, used = 0;

@@ -18,7 +18,6 @@
 namespace rayshoot {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -66,6 +65,7 @@ Scene scene_of(const std::vector<Vec3d>& vertices, const Corners& faces) {
   SceneBuilder builder;
   for (const auto& face : faces) {
     std::vector<Vec3d> corners;
+    corners.reserve(face.size());
     for (const int corner : face) corners.push_back(vertices[static_cast<std::size_t>(corner)]);
     builder.polygon(corners);
   }
@@ -73,9 +73,9 @@ Scene scene_of(const std::vector<Vec3d>& vertices, const Corners& faces) {
 }
 
 std::vector<Vec3d> cube_vertices(const Vec3d& at = {}) {
-  std::vector<Vec3d> vertices;
+  std::vector<Vec3d> vertices(8, at);
   for (int i = 0; i < 8; ++i)
-    vertices.push_back(at + Vec3d{1.0 * (i & 1), 1.0 * (i >> 1 & 1), 1.0 * (i >> 2)});
+    vertices[static_cast<std::size_t>(i)] += Vec3d{1.0 * (i & 1), 1.0 * (i >> 1 & 1), 1.0 * (i >> 2)};
   return vertices;
 }
 const Corners kCubeFaces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},

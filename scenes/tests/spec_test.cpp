@@ -1,5 +1,6 @@
 #include "scenes/core/spec.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,10 +60,11 @@ TEST(Arguments, ChecksValuesAndFillsDefaults) {
   EXPECT_EQ(arguments.text("form"), "curves");
   for (const auto& [name, value] : std::map<std::string, std::string>{
            {"size", "0"}, {"ratio", "nan"}, {"fast", "yes"}, {"form", "curve"}})
-    EXPECT_THAT(([&, n = name, v = value] {
-                  Arguments(parameters, {{n, v}}, "thing");
-                }),
-                ThrowsMessage<InputError>(HasSubstr("thing: " + name + "=" + value + " is not accepted")));
+    EXPECT_THAT(
+        ([&, n = name, v = value] {
+          Arguments(parameters, {{n, v}}, "thing");
+        }),
+        ThrowsMessage<InputError>(HasSubstr(fmt::format("thing: {}={} is not accepted", name, value))));
   EXPECT_THAT(([&] {
                 Arguments(parameters, {{"sise", "1"}}, "thing");
               }),
