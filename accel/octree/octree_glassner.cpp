@@ -23,8 +23,8 @@
 //
 // Exactness  A point o + t d is nowhere computed. Voxels end on the planes of a lattice whose layers are minlen
 //            thick; the point beyond the exit face is known by its three layers, found by comparing the exit
-//            parameter with the parameters of planes. Where the exit is on several planes at once, by an edge, a
-//            vertex or rounding, the ray also touches voxels that it does not enter: these are visited as well.
+//            parameter with the parameters of planes. Where the exit may be on several planes at once, by an edge, a
+//            vertex or rounding, the ray may also touch voxels that it does not enter: these are visited as well.
 
 #include <numeric>
 
@@ -112,10 +112,16 @@ class OctreeGlassner {
   };
   /// A leaf on the way of a ray: its place in the lattice as the ray sees it, and its objects.
   struct Voxel {
-    NodeTable::Name name;
-    Layers corner;
-    int size;
+    NodeTable::Name name = 0;
+    Layers corner{};
+    int size = 0;
     std::span<const std::uint32_t> objects;
+
+    bool contains(const Layers& layers) const {
+      for (int axis = 0; axis < 3; ++axis)
+        if (layers[axis] < corner[axis] || layers[axis] >= corner[axis] + size) return false;
+      return true;
+    }
   };
 
   static TechniqueInfo info() {
@@ -238,7 +244,7 @@ class OctreeGlassner<Real>::Walk {
     if (!(t <= box.exit && t <= visitor_.reach())) return;
     Layers q;
     for (int axis = 0; axis < 3; ++axis) q[axis] = path_.layer(axis, t, 0, layers_);
-    if (t > t_min && planes_at(q, t) > 0 && touched_voxels(t)) return;
+    if (t > 0 && planes_at(q, t) > 0 && touched_voxels(t, {}, q)) return;
 
     while (std::max({q[0], q[1], q[2]}) < layers_) {
       // Locate the voxel which contains Q and test its objects.
@@ -249,8 +255,8 @@ class OctreeGlassner<Real>::Walk {
       t = exit(voxel);
       if (visitor_.reach() < t) return;
 
-      // Step into the neighbour; where that is by an edge or a vertex, visit the voxels touched there.
-      if (step(voxel, t, q) && touched_voxels(t)) return;
+      // Step into the neighbour; where that may be by an edge or a vertex, visit the voxels touched there.
+      if (step(voxel, t, q) && touched_voxels(t, voxel, q)) return;
     }
   }
 
@@ -280,27 +286,23 @@ class OctreeGlassner<Real>::Walk {
   }
 
   Real exit(const Voxel& voxel) const {
-    return std::min({path_.crossing(0, voxel.corner[0] + voxel.size),
-                     path_.crossing(1, voxel.corner[1] + voxel.size),
-                     path_.crossing(2, voxel.corner[2] + voxel.size)});
+    return std::min({path_.entry(0, voxel.corner[0] + voxel.size), path_.entry(1, voxel.corner[1] + voxel.size),
+                     path_.entry(2, voxel.corner[2] + voxel.size)});
   }
 
   /// Move Q from the voxel that the ray leaves at t into the one that it enters: minlen/2 beyond each face that
-  /// contains the exit point, which is into the next layer, and along with the ray on the other axes. Whether the ray
-  /// passes more than one plane there and may touch further voxels.
+  /// may contain the exit point, which is into the next layer, and along with the ray on the other axes. Whether the
+  /// ray may pass more than one plane there and touch further voxels.
   bool step(const Voxel& voxel, Real t, Layers& q) const {
-    int planes = 0;
+    const Real until = t * kApart<Real>;
+    bool skips = false;
     for (int axis = 0; axis < 3; ++axis) {
       const int face = voxel.corner[axis] + voxel.size;
-      if (path_.crossing(axis, face) == t) {
-        q[axis] = path_.layer(axis, t, face, layers_);
-        planes += 1 + (q[axis] > face);
-      } else {
-        q[axis] = path_.layer(axis, t, q[axis], face - 1);
-        planes += q[axis] > 0 && path_.crossing(axis, q[axis]) == t;
-      }
+      const bool passed = path_.entry(axis, face) <= until;
+      q[axis] = passed ? path_.layer(axis, until, face, layers_) : path_.layer(axis, until, q[axis], face - 1);
+      skips |= q[axis] > face;
     }
-    return planes > 1;
+    return skips || planes_at(q, t) > 1;
   }
 
   const NodeTable::Node* find(NodeTable::Name name) const {
@@ -318,25 +320,23 @@ class OctreeGlassner<Real>::Walk {
     return visitor_(voxel);
   }
 
-  /// Number of axes on which the ray passes from a layer into that of q at t.
+  /// Number of axes on which the ray may pass into the layer of q at t.
   int planes_at(const Layers& q, Real t) const {
     int planes = 0;
-    for (int axis = 0; axis < 3; ++axis) planes += q[axis] > 0 && path_.crossing(axis, q[axis]) == t;
+    for (int axis = 0; axis < 3; ++axis) planes += q[axis] > 0 && path_.entry(axis, q[axis]) * kApart<Real> >= t;
     return planes;
   }
 
-  /// Visit the voxels in which the ray is at t and at no other parameter; true when the visit must end.
-  bool touched_voxels(Real t) {
+  /// Visit the voxels in which the ray may be at t, but neither the one it comes from nor that of layers q, into
+  /// which it goes on; true when the visit must end.
+  bool touched_voxels(Real t, const Voxel& from, const Layers& q) {
     return descend(
         NodeTable::kRoot, {0, 0, 0}, layers_,
         [&](const Layers& corner, int size) {
           const Interval<Real> inside = path_.inside(corner, size);
-          return inside.enter <= t && t <= inside.exit;
+          return inside.enter <= std::min(inside.exit, t * kApart<Real>) && t <= inside.exit * kApart<Real>;
         },
-        [&](const Voxel& voxel) {
-          const Interval<Real> inside = path_.inside(voxel.corner, voxel.size);
-          return inside.enter == inside.exit && visit(voxel);
-        });
+        [&](const Voxel& voxel) { return voxel.name != from.name && !voxel.contains(q) && visit(voxel); });
   }
 
   /// Hand to `visit` the leaves below a node for which, and for all above which, `meets(corner, size)` holds,

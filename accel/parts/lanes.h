@@ -32,10 +32,11 @@ class PairCrossings {
   explicit PairCrossings(const Ray<Real>& ray) {
     const Crossings<Real> crossings(ray);
     for (int axis = 0; axis < 3; ++axis) {
-      const Real origin = crossings.origin[axis], inverse = crossings.inverse[axis];
+      const Real origin = crossings.origin[axis];
+      const Real earliest = crossings.earliest[axis], latest = crossings.latest[axis];
       origin_[axis] = Lanes<Real>{origin, origin, origin, origin};
-      inverse_[axis] = Lanes<Real>{inverse, inverse, -inverse, -inverse};
-      near_[axis] = inverse < 0;
+      inverse_[axis] = Lanes<Real>{earliest, earliest, -latest, -latest};
+      near_[axis] = crossings.inverse[axis] < 0;
     }
   }
 

@@ -72,7 +72,7 @@ Box<Real> Lattice<Real>::cell(const std::array<int, 3>& corner, int size) const 
 }
 
 /// A ray as the lattice sees it, mirrored on the axes along which it runs backwards: layer and plane numbers
-/// always grow along the ray, and crossing(axis, k) never decreases with k.
+/// always grow along the ray, and entry(axis, k) never decreases with k.
 template <class Real>
 class LatticeRay {
  public:
@@ -90,8 +90,9 @@ class LatticeRay {
     }
   }
 
-  /// The ray parameter at plane k of the mirrored axis.
-  Real crossing(int axis, int k) const { return crossings_.crossing(axis, position(axis, k)); }
+  /// The earliest ray parameter at which it may pass plane k of the mirrored axis, and the latest.
+  Real entry(int axis, int k) const { return crossings_.enter(axis, position(axis, k)); }
+  Real exit(int axis, int k) const { return crossings_.exit(axis, position(axis, k)); }
 
   /// Bit `axis` is set where the axis is mirrored: exclusive-or turns octants as the ray sees them into
   /// octants of the lattice, and back.
@@ -101,7 +102,7 @@ class LatticeRay {
   /// are not numbers.
   Interval<Real> inside(const Layers& corner, int size) const {
     return common([&](int axis) {
-      return Interval<Real>{crossing(axis, corner[axis]), crossing(axis, corner[axis] + size)};
+      return Interval<Real>{entry(axis, corner[axis]), exit(axis, corner[axis] + size)};
     });
   }
 
@@ -109,19 +110,19 @@ class LatticeRay {
   Interval<Real> near(const Layers& corner, int size, Real margin) const {
     return common([&](int axis) {
       const Real along = static_cast<Real>(sign_[axis]) * margin;
-      return Interval<Real>{crossings_.crossing(axis, position(axis, corner[axis]) - along),
-                            crossings_.crossing(axis, position(axis, corner[axis] + size) + along)};
+      return Interval<Real>{crossings_.enter(axis, position(axis, corner[axis]) - along),
+                            crossings_.exit(axis, position(axis, corner[axis] + size) + along)};
     });
   }
 
-  /// The last of the layers lowest to highest that the ray has entered at t; it has entered the lowest.
+  /// The last of the layers lowest to highest that the ray may have entered at t; it has entered the lowest.
   int layer(int axis, Real t, int lowest, int highest) const {
     // Guess from the position at t, which is off by rounding at most: often right, never relied on.
     const Real guess = start_[axis] + t * pace_[axis];
     const int k = guess > static_cast<Real>(lowest)
                       ? static_cast<int>(std::min(guess, static_cast<Real>(highest)))
                       : lowest;
-    if ((k == lowest || crossing(axis, k) <= t) && (k == highest || t < crossing(axis, k + 1))) return k;
+    if ((k == lowest || entry(axis, k) <= t) && (k == highest || t < entry(axis, k + 1))) return k;
     return searched_layer(axis, t, lowest, highest);
   }
 
@@ -143,7 +144,7 @@ class LatticeRay {
   int searched_layer(int axis, Real t, int lowest, int highest) const {
     while (lowest < highest) {
       const int middle = (lowest + highest + 1) / 2;
-      if (crossing(axis, middle) <= t)
+      if (entry(axis, middle) <= t)
         lowest = middle;
       else
         highest = middle - 1;

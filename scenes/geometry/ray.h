@@ -43,62 +43,97 @@ struct Interval {
   Real enter, exit;
 };
 
-/// A ray prepared for crossing axis-aligned planes. Every technique asks `crossing`, and nothing else, for the
-/// parameter at which a ray meets a plane: it never decreases along the direction as the plane moves, so a box
-/// inside another always gets an interval inside the other's, without any padding at the time of the test.
+/// By how much, relative to itself, a computed crossing may be off: three roundings of the crossing, and four
+/// of the object test that a ray was given to decide whether it hits there.
+template <class Real>
+inline constexpr Real kCrossingError = 8 * std::numeric_limits<Real>::epsilon();
+
+/// Two crossings that differ by less than this factor may be one, or come in the other order: each may be off by
+/// `kCrossingError`.
+template <class Real>
+inline constexpr Real kApart = 1 + 3 * kCrossingError<Real>;
+
+/// A ray prepared for crossing axis-aligned planes. Every technique asks it, and nothing else, when a ray meets a
+/// plane. Parameters never decrease along the direction as the plane moves, so a box inside another gets an interval
+/// inside the other's. Intervals are wider than the exact ones by the error of a crossing at both ends (Ize 2013), so
+/// no ray that meets a box is lost, wherever it starts. Negative parameters are not widened: no ray is there.
 template <class Real>
 struct Crossings {
   Vec3<Real> origin;
-  Vec3<Real> inverse;
+  /// 1/direction, and what it is multiplied with for the earliest and the latest parameter at a plane.
+  Vec3<Real> inverse, earliest, latest;
 
   explicit Crossings(const Ray<Real>& ray)
       : origin(ray.origin),
-        inverse{invert(ray.direction.x), invert(ray.direction.y), invert(ray.direction.z)} {}
+        inverse{invert(ray.direction.x), invert(ray.direction.y), invert(ray.direction.z)},
+        earliest(inverse * (1 - kCrossingError<Real>)),
+        latest(inverse * (1 + kCrossingError<Real>)) {}
 
-  /// The parameter at which the ray meets the plane `position` of `axis`.
-  Real crossing(int axis, Real position) const { return (position - origin[axis]) * inverse[axis]; }
+  /// The parameter before which the ray has certainly not passed the plane `position` of `axis`.
+  Real enter(int axis, Real position) const { return (position - origin[axis]) * earliest[axis]; }
+  /// The parameter at which the ray has certainly reached the plane.
+  Real exit(int axis, Real position) const { return (position - origin[axis]) * latest[axis]; }
+
+  /// The parameters between a plane and one behind it, as the ray goes.
+  Interval<Real> between(int axis, Real lo, Real hi) const {
+    if (inverse[axis] < 0) std::swap(lo, hi);
+    return {enter(axis, lo), exit(axis, hi)};
+  }
 
   /// The closed interval of parameters inside a box, regardless of the ray's own ends.
   Interval<Real> inside(const Box<Real>& box) const {
-    const Real x0 = crossing(0, box.lo.x), x1 = crossing(0, box.hi.x);
-    const Real y0 = crossing(1, box.lo.y), y1 = crossing(1, box.hi.y);
-    const Real z0 = crossing(2, box.lo.z), z1 = crossing(2, box.hi.z);
-    return {std::max(std::max(std::min(x0, x1), std::min(y0, y1)), std::min(z0, z1)),
-            std::min(std::min(std::max(x0, x1), std::max(y0, y1)), std::max(z0, z1))};
+    const Interval<Real> x = between(0, box.lo.x, box.hi.x), y = between(1, box.lo.y, box.hi.y),
+                         z = between(2, box.lo.z, box.hi.z);
+    return {std::max(std::max(x.enter, y.enter), z.enter), std::min(std::min(x.exit, y.exit), z.exit)};
   }
 
  private:
-  /// 1/d; the largest finite number where that overflows, so that 0 * inverse is 0 and never not-a-number.
+  /// 1/d, limited to half the largest finite number, so that 0 * inverse is 0 and never not-a-number.
   static Real invert(Real d) {
-    constexpr Real limit = std::numeric_limits<Real>::max();
+    constexpr Real limit = std::numeric_limits<Real>::max() / 2;
     const Real inverse = Real{1} / d;
     return inverse > limit ? limit : inverse < -limit ? -limit : inverse;
   }
 };
 
-/// The last step of every ray-object test: hold the distance `t`, computed in double precision, to the interval
-/// in which the ray is inside the object's bounds. Distances so confined lie in the interval of every box that
-/// contains the bounds, which is why all techniques agree with exhaustive search exactly. Returns `kMiss` when
-/// the ray misses the bounds or the distance is outside the ray's own interval.
+/// Crossings in lanes: of the axes x, y and z.
 template <class Real>
-Real confine(double t, const Box<Real>& bounds, const Ray<Real>& ray) {
-  const Interval<Real> inside = Crossings<Real>(ray).inside(bounds);
-  if (!(inside.enter <= inside.exit)) return kMiss<Real>;
-  const Real confined = std::clamp(static_cast<Real>(t), inside.enter, inside.exit);
-  return confined > ray.t_min && confined <= ray.t_max ? confined : kMiss<Real>;
+struct LaneCrossings {
+  Lanes<Real> origin, inverse;
+
+  explicit LaneCrossings(const Ray<Real>& ray) : origin(read_lanes<Real>(ray, 0)) {
+    const Lanes<Real> direction = read_lanes<Real>(ray, 4);
+    const Lanes<Real> limit = Lanes<Real>{} + std::numeric_limits<Real>::max() / 2;
+    const Lanes<Real> unlimited = 1 / Lanes<Real>{direction[0], direction[1], direction[2], 1};
+    inverse = min_lanes(limit, max_lanes(-limit, unlimited));
+  }
+
+  /// As `Crossings::inside`, to the last bit.
+  Interval<Real> inside(const LaneBox<Real>& box) const {
+    const Lanes<Real> near = inverse < 0 ? box.hi : box.lo, far = inverse < 0 ? box.lo : box.hi;
+    return {largest((near - origin) * (inverse * (1 - kCrossingError<Real>))),
+            smallest((far - origin) * (inverse * (1 + kCrossingError<Real>)))};
+  }
+};
+
+template <class Real>
+Interval<Real> interval_inside(const Box<Real>& box, const Ray<Real>& ray) {
+  return Crossings<Real>(ray).inside(box);
+}
+template <class Real>
+Interval<Real> interval_inside(const LaneBox<Real>& box, const Ray<Real>& ray) {
+  return LaneCrossings<Real>(ray).inside(box);
 }
 
-/// The same for bounds in lanes, to the last bit.
-template <class Real>
-Real confine(double t, const LaneBox<Real>& bounds, const Ray<Real>& ray) {
-  const Lanes<Real> origin = read_lanes<Real>(ray, 0), direction = read_lanes<Real>(ray, 4);
-  const Lanes<Real> limit = Lanes<Real>{} + std::numeric_limits<Real>::max();
-  const Lanes<Real> unlimited = 1 / Lanes<Real>{direction[0], direction[1], direction[2], 1};
-  const Lanes<Real> inverse = min_lanes(limit, max_lanes(-limit, unlimited));
-  const Lanes<Real> one = (bounds.lo - origin) * inverse, other = (bounds.hi - origin) * inverse;
-  const Real enter = largest(min_lanes(one, other)), exit = smallest(max_lanes(one, other));
-  if (!(enter <= exit)) return kMiss<Real>;
-  const Real confined = std::clamp(static_cast<Real>(t), enter, exit);
+/// The last step of every ray-object test: hold the distance `t`, computed in double precision, to the interval
+/// in which the ray is inside the object's bounds, a Box or a LaneBox. Distances so confined lie in the interval of
+/// every box that contains the bounds, which is why all techniques agree with exhaustive search exactly. Returns
+/// `kMiss` when the ray misses the bounds or the distance is outside the ray's own interval.
+template <class Real, class Bounds>
+Real confine(double t, const Bounds& bounds, const Ray<Real>& ray) {
+  const Interval<Real> inside = interval_inside(bounds, ray);
+  if (!(inside.enter <= inside.exit)) return kMiss<Real>;
+  const Real confined = std::clamp(static_cast<Real>(t), inside.enter, inside.exit);
   return confined > ray.t_min && confined <= ray.t_max ? confined : kMiss<Real>;
 }
 

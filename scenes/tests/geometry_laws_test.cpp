@@ -98,9 +98,10 @@ TYPED_TEST(GeometryLaws, CrossingsNeverDecreaseAlongTheDirection) {
     std::sort(positions.begin(), positions.end());
     if (std::signbit(ray.direction.x)) std::reverse(positions.begin(), positions.end());
     const Crossings<Real> crossings(ray);
-    for (std::size_t k = 1; k < positions.size(); ++k)
-      ASSERT_LE(crossings.crossing(0, positions[k - 1]), crossings.crossing(0, positions[k]))
-          << ray.direction.x;
+    for (std::size_t k = 1; k < positions.size(); ++k) {
+      ASSERT_LE(crossings.enter(0, positions[k - 1]), crossings.enter(0, positions[k])) << ray.direction.x;
+      ASSERT_LE(crossings.exit(0, positions[k - 1]), crossings.exit(0, positions[k])) << ray.direction.x;
+    }
   }
 }
 
