@@ -40,13 +40,13 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
   void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
                EngineScratch& scratch) const override {
     auto& own = static_cast<Scratch&>(scratch).technique;
-    with_test([&](const auto& test) { closest_of_all(test, rays, hits, own); });
+    with_object_test(*geometry_, [&](const auto& test) { closest_of_all(test, rays, hits, own); });
   }
 
   void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked,
            EngineScratch& scratch) const override {
     auto& own = static_cast<Scratch&>(scratch).technique;
-    with_test([&](const auto& test) { any_of_all(test, rays, blocked, own); });
+    with_object_test(*geometry_, [&](const auto& test) { any_of_all(test, rays, blocked, own); });
   }
 
   CountedWork count(Query query, std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
@@ -114,17 +114,8 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
       blocked[i] = any_hit(technique_, test, name(), rays[i], scratch);
   }
 
-  /// Call `function` with the cheapest ray-object test that serves the scene's kinds of objects.
-  template <class Function>
-  void with_test(const Function& function) const {
-    if (geometry_->mostly_triangles())
-      function(ObjectTest<Real, true>{*geometry_});
-    else
-      function(ObjectTest<Real, false>{*geometry_});
-  }
-
   Hit<Real> counted_query(Query query, const Ray<Real>& ray, Scratch& scratch, Work& work) const {
-    using Test = ObjectTest<Real, false>;
+    using Test = ObjectTest<Real>;
     const Test test{*geometry_};
     if (query == Query::closest) {
       ClosestLeaf<Real, Test> leaf(test, name(), ray);

@@ -6,19 +6,36 @@
 
 namespace rayshoot {
 
-/// The objects in the order in which a technique hands them out. `MostlyTriangles` keeps the code for other
-/// kinds out of the way.
-template <class Real, bool MostlyTriangles>
+/// The ray-object test for scenes of any kind, and for any intersector.
+template <class Real>
 struct ObjectTest {
   const Geometry<Real>& geometry;
 
   Real operator()(std::uint32_t position, const Ray<Real>& ray) const {
-    if constexpr (MostlyTriangles)
-      return geometry.triangle_hit_distance(position, ray);
-    else
-      return geometry.hit_distance(position, ray);
+    return geometry.hit_distance(position, ray);
   }
 };
+
+/// The same for scenes of triangles mostly, and one intersector: code for other kinds is kept out of the way.
+template <class Real, Intersector kIntersector>
+struct TriangleTest {
+  const Geometry<Real>& geometry;
+
+  Real operator()(std::uint32_t position, const Ray<Real>& ray) const {
+    return geometry.template triangle_hit_distance<kIntersector>(position, ray);
+  }
+};
+
+/// Call `function` with the cheapest ray-object test that serves the scene's kinds of objects and its intersector.
+template <class Real, class Function>
+void with_object_test(const Geometry<Real>& geometry, const Function& function) {
+  if (!geometry.mostly_triangles() || geometry.intersector() == Intersector::exact)
+    function(ObjectTest<Real>{geometry});
+  else if (geometry.intersector() == Intersector::watertight)
+    function(TriangleTest<Real, Intersector::watertight>{geometry});
+  else
+    function(TriangleTest<Real, Intersector::fast>{geometry});
+}
 
 /// Which object stands at a position of the technique's own order; the identity where it has none.
 struct Naming {

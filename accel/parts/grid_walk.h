@@ -128,8 +128,9 @@ template <class Real, class Counter, class Visit, class Reach>
         count.step();
         if (visit(cell)) return true;
       }
+  if (over || reach() < t) return true;
   count.step();
-  return over;
+  return false;
 }
 
 /// The three-dimensional digital differential analyser (Fujimoto, Tanaka & Iwata 1986) in the form of

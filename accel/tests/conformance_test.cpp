@@ -8,20 +8,27 @@ namespace {
 class Conformance : public ::testing::TestWithParam<const TechniqueEntry*> {};
 
 template <class Real>
+void check(const TechniqueEntry& entry, const Geometry<Real>& geometry, const std::vector<Ray<Real>>& rays) {
+  const auto truths = conformance::truths<Real>(geometry, rays);
+  for (const conformance::Variant& variant : conformance::variants(entry)) {
+    SCOPED_TRACE(variant.name());
+    const Arguments arguments = variant.arguments();
+    conformance::check_engine<Real>(*entry.build<Real>({geometry, arguments}), rays, truths);
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+template <class Real>
 void check_nasty_scenes(const TechniqueEntry& entry) {
   for (const nasty::NamedScene& named : nasty::scenes())
-    for (const double scale : nasty::kScales) {
-      const Scene scene = nasty::scaled(named.scene, scale);
-      const Geometry<Real> geometry(scene);
-      const std::vector<Ray<Real>> rays = nasty::rays(geometry, scale, 150);
-      const auto truths = conformance::truths<Real>(geometry, rays);
-      for (const conformance::Variant& variant : conformance::variants(entry)) {
-        SCOPED_TRACE(fmt::format("{} on '{}' scaled by {}", variant.name(), named.name, scale));
-        const Arguments arguments = variant.arguments();
-        conformance::check_engine<Real>(*entry.build<Real>({geometry, arguments}), rays, truths);
+    for (const double scale : nasty::kScales)
+      for (const Intersector intersector : {Intersector::fast, Intersector::watertight, Intersector::exact}) {
+        SCOPED_TRACE(fmt::format("'{}' scaled by {}, {}", named.name, scale,
+                                 kIntersectorNames[static_cast<std::size_t>(intersector)]));
+        const Geometry<Real> geometry(nasty::scaled(named.scene, scale), ConeSides::both, intersector);
+        check(entry, geometry, nasty::rays(geometry, scale, intersector == Intersector::exact ? 25 : 120));
         if (::testing::Test::HasFailure()) return;
       }
-    }
 }
 
 TEST_P(Conformance, EqualsExhaustiveSearchInFloat) { check_nasty_scenes<float>(*GetParam()); }

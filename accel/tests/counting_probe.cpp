@@ -136,7 +136,7 @@ class Tree : public ByHand {
 template <class A>
 [[gnu::flatten, gnu::noinline]] void plain_loop(const A& search, const Geometry<float>& geometry, Naming name,
                                                 Rays rays, Hits hits) {
-  using Test = ObjectTest<float, true>;
+  using Test = TriangleTest<float, Intersector::fast>;
   const Test test{geometry};
   ByHand::Scratch scratch;
   for (std::size_t i = 0; i < rays.size(); ++i) {

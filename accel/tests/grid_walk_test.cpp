@@ -100,7 +100,7 @@ TYPED_TEST(GridWalkOf, VisitsExactlyTheCellsInWhichAHitCanLie) {
       for (std::size_t c = 1; c < cells.size(); ++c) {
         const TypeParam before = std::max(inside(crossings, grid, cells[c - 1]).enter, ray.t_min);
         const auto [enter, exit] = inside(crossings, grid, cells[c]);
-        ASSERT_LE(before, std::max(exit, enter));
+        ASSERT_LE(before, std::max(exit, enter) * kApart<TypeParam>);
       }
 
       const auto steps = cells.size();
@@ -139,7 +139,9 @@ TEST(GridWalk, GoesNoFurtherThanTheReach) {
   ray.t_max = 2;
   EXPECT_THAT(walked(grid, ray), ElementsAre(0, 1, 2)) << "a hit of a lower object at 2 may lie in cell 2";
   ray.t_min = 1;
-  EXPECT_THAT(walked(grid, ray), ElementsAre(1, 2)) << "the interval is open at 1";
+  EXPECT_THAT(walked(grid, ray), ElementsAre(0, 1, 2)) << "the plane at 1 may be crossed a little later";
+  ray.t_min = 1.001;
+  EXPECT_THAT(walked(grid, ray), ElementsAre(1, 2));
 }
 
 TEST(GridWalk, EndsForRaysThatAreNone) {

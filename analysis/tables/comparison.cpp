@@ -101,12 +101,16 @@ Table table_of(const Group& group, bool several_reports) {
 
 }  // namespace
 
+std::string precision_of(const Group& group) {
+  return group.intersector == "fast" ? group.scalar : fmt::format("{}, {}", group.scalar, group.intersector);
+}
+
 std::string title_of(const Group& group, bool several_reports) {
   const std::string prefix = group.scene_id + "/";
   const std::string rays =
       group.rays_id.starts_with(prefix) ? group.rays_id.substr(prefix.size()) : group.rays_id;
   const std::string run = several_reports ? fmt::format("[{}] ", group.report->run.id) : "";
-  return fmt::format("{}{}, {}, {}", run, group.scene_id, rays, group.scalar);
+  return fmt::format("{}{}, {}, {}", run, group.scene_id, rays, precision_of(group));
 }
 
 std::vector<Table> comparison_tables(const std::vector<report::Report>& reports) {

@@ -35,6 +35,8 @@ Column time_column();
 Column zero_overhead_column();
 Column embree_column();
 
+/// The scalar of a group, and its intersector where that is not the default: "float, watertight".
+std::string precision_of(const Group& group);
 /// "[run] scene, rays, precision", the run where there are several reports.
 std::string title_of(const Group& group, bool several_reports);
 

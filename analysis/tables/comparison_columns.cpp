@@ -102,6 +102,8 @@ std::vector<ComparisonColumn> identity_columns() {
       {in_csv("scene", Style::text), [](const Group& group, const Entry&) { return words(group.scene_id); }},
       {in_csv("rays", Style::text), [](const Group& group, const Entry&) { return words(group.rays_id); }},
       {in_csv("scalar", Style::text), [](const Group& group, const Entry&) { return words(group.scalar); }},
+      {in_csv("intersector", Style::text),
+       [](const Group& group, const Entry&) { return words(group.intersector); }},
       {in_csv("technique", Style::text),
        [](const Group&, const Entry& entry) { return words(entry.measurement->technique); }},
       {in_csv("config", Style::text),

@@ -63,14 +63,15 @@ const Listed* find(const std::vector<Listed>& list, const std::string& id) {
 template <class Of>
 Group& group_of(std::vector<Group>& groups, const report::Report& report, const Of& cell) {
   const auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-    return std::tie(group.scene_id, group.rays_id, group.scalar) ==
-           std::tie(cell.scene, cell.rays, cell.scalar);
+    return std::tie(group.scene_id, group.rays_id, group.scalar, group.intersector) ==
+           std::tie(cell.scene, cell.rays, cell.scalar, cell.intersector);
   });
   if (found != groups.end()) return *found;
   return groups.emplace_back(Group{.report = &report,
                                    .scene_id = cell.scene,
                                    .rays_id = cell.rays,
                                    .scalar = cell.scalar,
+                                   .intersector = cell.intersector,
                                    .scene = find(report.scenes, cell.scene),
                                    .rays = find(report.ray_sets, cell.rays)});
 }

@@ -25,11 +25,11 @@ struct Entry {
   const report::Measurement *zero_overhead = nullptr, *embree = nullptr;
 };
 
-/// All measurements of a scene, its rays and a precision, sorted: by time, or by tests per ray where there is no time;
+/// All measurements of a scene, its rays, a precision and an intersector, sorted: by time, or by tests per ray where there is no time;
 /// then those that are wrong, and those that failed.
 struct Group {
   const report::Report* report = nullptr;
-  std::string scene_id, rays_id, scalar;
+  std::string scene_id, rays_id, scalar, intersector;
   /// Null when the report does not list them.
   const report::Scene* scene = nullptr;
   const report::RaySet* rays = nullptr;

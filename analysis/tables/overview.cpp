@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <tuple>
 
 #include "analysis/statistics/geometric_mean.h"
@@ -61,7 +62,7 @@ std::vector<Summary> summaries(const std::vector<const Group*>& groups) {
 Table overview(const std::vector<const Group*>& groups, bool several_reports) {
   const std::string run = several_reports ? fmt::format("[{}] ", groups[0]->report->run.id) : "";
   Table table{
-      .title = fmt::format("{}All {} scenes and rays, {}", run, groups.size(), groups[0]->scalar),
+      .title = fmt::format("{}All {} scenes and rays, {}", run, groups.size(), precision_of(*groups[0])),
       .columns = {technique_column(),
                   {"cells", "cells", "", "scenes and rays in which the technique is right", Style::whole},
                   {"object_tests_per_ray", "tests", "/ray", "ray-object tests, repeated ones included"},
@@ -85,12 +86,11 @@ std::vector<Table> overview_tables(const std::vector<report::Report>& reports) {
   std::vector<Table> tables;
   for (const report::Report& report : reports) {
     const std::vector<Group> all = groups(report);
-    for (const char* scalar : {"float", "double"}) {
-      std::vector<const Group*> measured;
-      for (const Group& group : all)
-        if (group.scalar == scalar && !group.entries.empty()) measured.push_back(&group);
-      if (measured.size() > 1) tables.push_back(overview(measured, reports.size() > 1));
-    }
+    std::map<std::pair<std::string, std::string>, std::vector<const Group*>> measured;
+    for (const Group& group : all)
+      if (!group.entries.empty()) measured[{group.scalar, group.intersector}].push_back(&group);
+    for (const auto& [precision, of_precision] : measured)
+      if (of_precision.size() > 1) tables.push_back(overview(of_precision, reports.size() > 1));
   }
   return tables;
 }

@@ -28,11 +28,11 @@ class ZeroOverhead final : public Engine<Real> {
   std::unique_ptr<EngineScratch> scratch() const override { return std::make_unique<EngineScratch>(); }
 
   void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits, EngineScratch&) const override {
-    with_test([&](const auto& test) { replay(test, rays, recorded(rays), hits); });
+    with_object_test(geometry_, [&](const auto& test) { replay(test, rays, recorded(rays), hits); });
   }
 
   void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked, EngineScratch&) const override {
-    with_test([&](const auto& test) { replay(test, rays, recorded(rays), blocked); });
+    with_object_test(geometry_, [&](const auto& test) { replay(test, rays, recorded(rays), blocked); });
   }
 
   /// The strict query hands out the nearest hit as well: nothing but that is known.
@@ -83,14 +83,6 @@ class ZeroOverhead final : public Engine<Real> {
       else
         answers[i] = hit.object != kNoObject;
     }
-  }
-
-  template <class Function>
-  void with_test(const Function& function) const {
-    if (geometry_.mostly_triangles())
-      function(ObjectTest<Real, true>{geometry_});
-    else
-      function(ObjectTest<Real, false>{geometry_});
   }
 
   const Geometry<Real>& geometry_;

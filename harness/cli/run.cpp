@@ -24,7 +24,7 @@ constexpr const char* kDefaultSuite = "quick";
 /// What is given on the command line; what is not leaves the suite as it is.
 struct Options {
   std::string suite;
-  std::vector<std::string> scenes, techniques, rays, scalars;
+  std::vector<std::string> scenes, techniques, rays, scalars, intersectors;
   std::optional<int> resolution, threads;
   std::optional<std::string> rules;
   std::optional<std::uint64_t> seed;
@@ -54,6 +54,7 @@ Suite suite_of(const Options& options) {
   replace(suite.techniques, options.techniques);
   replace(suite.rays, options.rays);
   replace(suite.scalars, options.scalars);
+  replace(suite.intersectors, options.intersectors);
   if (options.resolution) suite.resolution = options.resolution;
   if (options.rules) suite.rules = options.rules;
   suite.seed = options.seed.value_or(suite.seed);
@@ -111,6 +112,9 @@ void add_run(CLI::App& program, const std::string& command_line, int& status) {
   repeatable(command->add_option("--technique", options->techniques, "Techniques in place of the suite's"));
   repeatable(command->add_option("--rays", options->rays, "Ray distributions in place of the suite's"));
   repeatable(command->add_option("--scalar", options->scalars, "float, double or both"));
+  repeatable(
+      command->add_option("--intersector", options->intersectors,
+                          "Ray-object test of triangles and polygons: fast, watertight, exact, or several"));
   command->add_option("--resolution", options->resolution, "Resolution of camera rays")
       ->check(CLI::Range(1, 16384));
   command->add_option("--rules", options->rules, "Rules of the ray tree");

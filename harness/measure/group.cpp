@@ -67,7 +67,7 @@ class Group {
         observer_(observer),
         stopped_(stopped),
         all_threads_(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
-        geometry_(input.scene, input.cone_sides) {
+        geometry_(input.scene, input.cone_sides, intersector_named(input.intersector)) {
     record_set_aside(report.scenes.back());
   }
 
@@ -94,11 +94,12 @@ class Group {
   }
 
   void announce(const std::string& step) const {
-    observer_.doing(fmt::format("{} {}: {}", input_.scene.id, input_.scalar, step));
+    observer_.doing(fmt::format("{} {} {}: {}", input_.scene.id, input_.scalar, input_.intersector, step));
   }
 
   bool wanted(const TechniqueChoice& technique, const PreparedRays& rays) const {
-    return why_left_out(suite_, {input_.scene, *rays.spec, rays.set.rays.size(), technique, input_.scalar})
+    return why_left_out(suite_, {input_.scene, *rays.spec, rays.set.rays.size(), technique, input_.scalar,
+                                 input_.intersector})
         .empty();
   }
 
@@ -144,6 +145,7 @@ class Group {
                         .technique = built.choice->entry->info.id,
                         .config = config_of(built.choice->arguments),
                         .scalar = input_.scalar,
+                        .intersector = input_.intersector,
                         .query = query_of(set),
                         .build_ns = built.build_ns};
     if (!built.engine) fail(cell, built.failure);

@@ -17,6 +17,7 @@ struct GroupInput {
   const Scene& scene;
   ConeSides cone_sides;
   std::string scalar;
+  std::string intersector;
   std::vector<const PreparedRays*> rays;
 };
 

@@ -73,7 +73,9 @@ class Runner {
     report_.scenes.push_back(record(loaded));
     const std::vector<PreparedRays> rays = prepare(loaded.scene);
     for (const ConeSides sides : {ConeSides::both, ConeSides::outside})
-      for (const std::string& scalar : plan_.suite.scalars) run_group(loaded.scene, rays, sides, scalar);
+      for (const std::string& scalar : plan_.suite.scalars)
+        for (const std::string& intersector : plan_.suite.intersectors)
+          run_group({plan_, loaded.scene, sides, scalar, intersector, {}}, rays);
   }
 
  private:
@@ -93,14 +95,12 @@ class Runner {
     return prepared;
   }
 
-  void run_group(const Scene& scene, const std::vector<PreparedRays>& rays, ConeSides sides,
-                 const std::string& scalar) {
-    GroupInput group{plan_, scene, sides, scalar, {}};
+  void run_group(GroupInput group, const std::vector<PreparedRays>& rays) {
     for (const PreparedRays& one : rays)
-      if (one.spec->cone_sides() == sides) group.rays.push_back(&one);
+      if (one.spec->cone_sides() == group.cone_sides) group.rays.push_back(&one);
     if (group.rays.empty() || stopped_()) return;
     record_left_out(group);
-    if (scalar == "float")
+    if (group.scalar == "float")
       rayshoot::run_group<float>(group, report_, observer_, stopped_);
     else
       rayshoot::run_group<double>(group, report_, observer_, stopped_);
@@ -110,11 +110,11 @@ class Runner {
     std::size_t count = 0;
     for (const PreparedRays* rays : group.rays)
       for (const TechniqueChoice& technique : plan_.techniques) {
-        const std::string why = why_left_out(
-            plan_.suite, {group.scene, *rays->spec, rays->set.rays.size(), technique, group.scalar});
+        const std::string why = why_left_out(plan_.suite, {group.scene, *rays->spec, rays->set.rays.size(),
+                                                           technique, group.scalar, group.intersector});
         if (why.empty()) continue;
         report_.left_out.push_back({group.scene.id, fmt::format("{}/{}", group.scene.id, rays->set.id),
-                                    technique.spec, group.scalar, why});
+                                    technique.spec, group.scalar, group.intersector, why});
         ++count;
       }
     observer_.finished(count);

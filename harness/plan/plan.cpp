@@ -68,7 +68,7 @@ bool matches(const Exclusion& exclusion, const CellFacts& cell) {
   };
   return matches(exclusion.scene, cell.scene.id) && matches(exclusion.rays, cell.rays.id) &&
          either(cell.technique.entry->info.id, cell.technique.spec) &&
-         matches(exclusion.scalar, cell.scalar) &&
+         matches(exclusion.scalar, cell.scalar) && matches(exclusion.intersector, cell.intersector) &&
          (exclusion.objects_over == 0 || cell.scene.size() > exclusion.objects_over) &&
          (exclusion.rays_over == 0 || cell.ray_count > exclusion.rays_over);
 }
@@ -88,12 +88,18 @@ std::string beyond_technique(const CellFacts& cell) {
   return {};
 }
 
+void require_known(const char* what, const std::vector<std::string>& names,
+                   const std::vector<std::string>& known) {
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(unknown_name(what, name, known));
+}
+
 }  // namespace
 
 Plan make_plan(Suite suite) {
-  for (const std::string& scalar : suite.scalars)
-    if (scalar != "float" && scalar != "double")
-      throw InputError(unknown_name("scalar", scalar, {"float", "double"}));
+  require_known("scalar", suite.scalars, {"float", "double"});
+  require_known("intersector", suite.intersectors, {kIntersectorNames.begin(), kIntersectorNames.end()});
   Plan plan{.suite = std::move(suite)};
   // Name each scene canonically, and only once.
   std::vector<std::string> ids;
@@ -110,6 +116,9 @@ std::string why_left_out(const Suite& suite, const CellFacts& cell) {
   if (!no_rays.empty()) return no_rays;
   for (const Exclusion& exclusion : suite.exclude)
     if (matches(exclusion, cell)) return exclusion.why;
+  if (cell.technique.entry->info.own_object_test && cell.intersector != suite.intersectors.front())
+    return fmt::format("{} has an object test of its own: see {}", cell.technique.entry->info.id,
+                       suite.intersectors.front());
   return beyond_technique(cell);
 }
 

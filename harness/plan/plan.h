@@ -12,9 +12,10 @@ struct Plan {
   std::vector<RaySpec> rays;
   std::vector<TechniqueChoice> techniques;
 
-  /// Number of combinations of scene, rays, technique and scalar, left out ones included.
+  /// Number of combinations of scene, rays, technique, scalar and intersector, left out ones included.
   std::size_t cells() const {
-    return suite.scenes.size() * rays.size() * techniques.size() * suite.scalars.size();
+    return suite.scenes.size() * rays.size() * techniques.size() * suite.scalars.size() *
+           suite.intersectors.size();
   }
 };
 
@@ -29,6 +30,7 @@ struct CellFacts {
   std::uint64_t ray_count;
   const TechniqueChoice& technique;
   const std::string& scalar;
+  const std::string& intersector;
 };
 
 /// Why a cell is left out; empty when it is to be run.

@@ -159,6 +159,7 @@ auto exclusions(std::vector<Exclusion>& target) {
                    {"rays", text(exclusion.rays)},
                    {"technique", text(exclusion.technique)},
                    {"scalar", text(exclusion.scalar)},
+                   {"intersector", text(exclusion.intersector)},
                    {"objects_over", number(exclusion.objects_over, 0, any)},
                    {"rays_over", number(exclusion.rays_over, 0, any)},
                    {"why", text(exclusion.why)}});
@@ -172,6 +173,7 @@ Readers suite_readers(Suite& suite) {
           {"rays", specifications(suite.rays)},
           {"techniques", specifications(suite.techniques)},
           {"scalars", specifications(suite.scalars)},
+          {"intersectors", specifications(suite.intersectors)},
           {"exclude", exclusions(suite.exclude)},
           {"seed", number(suite.seed, 0, any)},
           {"resolution", optional_number(suite.resolution, 1, 16384)},

@@ -11,17 +11,17 @@ namespace rayshoot {
 
 /// Cells that a suite leaves out: those that match all that is given here. Patterns may hold `*` and `?`.
 struct Exclusion {
-  std::string scene = "*", rays = "*", technique = "*", scalar = "*";
+  std::string scene = "*", rays = "*", technique = "*", scalar = "*", intersector = "*";
   /// Matches only scenes with more objects, ray sets with more rays.
   std::uint64_t objects_over = 0, rays_over = 0;
   std::string why = "the suite leaves it out";
 };
 
-/// What a run is asked to do: every combination of scene, rays, technique and scalar, and how to measure it.
+/// What a run is asked to do: every combination of scene, rays, technique, scalar and intersector, and how to measure it.
 struct Suite {
   std::string name;
   /// Specifications. Lists of parameter values in a suite file have become one specification each.
-  std::vector<std::string> scenes, rays{"whitted"}, techniques{"all"}, scalars{"float"};
+  std::vector<std::string> scenes, rays{"whitted"}, techniques{"all"}, scalars{"float"}, intersectors{"fast"};
   std::vector<Exclusion> exclude;
 
   std::uint64_t seed = 1;

@@ -8,12 +8,14 @@
 /// The members of every object of a report: what reader and writer both follow.
 ///
 /// A visitor has required(name, value), optional(name, value), for a std::optional or a list that is absent when
-/// empty, and choice(name, value, words), for a required string that is one of some words.
+/// empty, choice(name, value, words), for a required string that is one of some words, and optional_choice, which is
+/// the first of them where it is absent.
 namespace rayshoot::report {
 
 inline constexpr const char* kSchemaName = "rayshoot.report";
 inline constexpr std::array kStatusNames = {"ok", "wrong", "graded", "failed"};
 inline constexpr std::array kScalarNames = {"float", "double"};
+inline constexpr std::array kIntersectorNames = {"fast", "watertight", "exact"};
 inline constexpr std::array kQueryNames = {"closest", "any", "closest+any"};
 
 /// T, to be read into, or const T, to be written.
@@ -150,6 +152,7 @@ void members(T& measurement, Visitor& visitor) {
   visitor.required("technique", measurement.technique);
   visitor.required("config", measurement.config);
   visitor.choice("scalar", measurement.scalar, kScalarNames);
+  visitor.optional_choice("intersector", measurement.intersector, kIntersectorNames);
   visitor.choice("query", measurement.query, kQueryNames);
   visitor.required("verdict", measurement.verdict);
   visitor.optional("work", measurement.work);
@@ -169,6 +172,7 @@ void members(T& cell, Visitor& visitor) {
   visitor.required("rays", cell.rays);
   visitor.required("technique", cell.technique);
   visitor.choice("scalar", cell.scalar, kScalarNames);
+  visitor.optional_choice("intersector", cell.intersector, kIntersectorNames);
   visitor.required("why", cell.why);
 }
 

@@ -135,6 +135,10 @@ class Reader {
   void choice(const char* name, std::string& value, const Names& names) {
     value = names[read_choice(present(name), member_path(path_, name), names)];
   }
+  template <class Names>
+  void optional_choice(const char* name, std::string& value, const Names& names) {
+    if (known(name) != json_.end()) choice(name, value, names);
+  }
   template <class T>
   void optional(const char* name, std::optional<T>& value) {
     if (known(name) != json_.end()) required(name, value.emplace());

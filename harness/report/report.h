@@ -129,6 +129,8 @@ struct Measurement {
   std::string technique;
   std::map<std::string, ConfigValue> config;
   std::string scalar;
+  /// The ray-object test: "fast", "watertight" or "exact".
+  std::string intersector = "fast";
   /// "closest", "any", or "closest+any" where the ray set asks both.
   std::string query;
   Verdict verdict;
@@ -148,7 +150,9 @@ struct Measurement {
 
 /// A cell that was planned and not run; `technique` is the specification that was asked for.
 struct LeftOutCell {
-  std::string scene, rays, technique, scalar, why;
+  std::string scene, rays, technique, scalar;
+  std::string intersector = "fast";
+  std::string why;
 };
 
 struct Report {

@@ -72,6 +72,10 @@ class Writer {
   void choice(const char* name, const std::string& value, const Names&) {
     required(name, value);
   }
+  template <class Names>
+  void optional_choice(const char* name, const std::string& value, const Names& names) {
+    if (value != names.front()) required(name, value);
+  }
   template <class T>
   void optional(const char* name, const std::optional<T>& value) {
     if (value) unless_not_finite(name, *value);

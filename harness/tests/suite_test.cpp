@@ -64,6 +64,8 @@ TEST(SuiteTest, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(refusal(R"({"scenes": ["balls"], "exclude": [{"tech": "x"}]})"),
               HasSubstr("exclude[0]: unknown member 'tech'"));
   EXPECT_THAT(refusal(R"({"scenes": ["balls"], "scalars": ["half"]})"), HasSubstr("unknown scalar 'half'"));
+  EXPECT_THAT(refusal(R"({"scenes": ["balls"], "intersectors": ["tight"]})"),
+              HasSubstr("unknown intersector 'tight'"));
   EXPECT_THAT(refusal(R"({"scenes": ["balls"], "rays": ["primry"]})"), HasSubstr("did you mean 'primary'?"));
   EXPECT_THAT(refusal(R"({"scenes": ["balls"], "techniques": ["exhaustiv"]})"),
               HasSubstr("did you mean 'exhaustive'?"));
@@ -109,9 +111,11 @@ TEST(SuiteTest, AnUnknownSuiteIsAnErrorThatNamesTheKnownOnes) {
 /// A cell of a scene of 11 objects.
 class LeavingOutTest : public ::testing::Test {
  protected:
-  std::string why(const std::string& suite, std::uint64_t rays, const std::string& scalar = "float") {
+  std::string why(const std::string& suite, std::uint64_t rays, const std::string& scalar = "float",
+                  const std::string& intersector = "fast") {
     const Plan plan = make_plan(parse_suite(suite, "test"));
-    return why_left_out(plan.suite, {scene_, plan.rays.at(0), rays, plan.techniques.at(0), scalar});
+    return why_left_out(plan.suite,
+                        {scene_, plan.rays.at(0), rays, plan.techniques.at(0), scalar, intersector});
   }
   Scene scene_ = [] {
     Scene scene;
@@ -120,6 +124,13 @@ class LeavingOutTest : public ::testing::Test {
     return scene;
   }();
 };
+
+TEST_F(LeavingOutTest, AnEngineWithItsOwnObjectTestRunsForOneIntersector) {
+  const std::string suite =
+      R"({"scenes": "balls:1", "rays": "primary", "techniques": "embree", "intersectors": ["fast", "exact"]})";
+  EXPECT_EQ(why(suite, 100, "float", "fast"), "");
+  EXPECT_THAT(why(suite, 100, "float", "exact"), HasSubstr("object test of its own"));
+}
 
 TEST_F(LeavingOutTest, RunsWhatNothingForbids) {
   EXPECT_EQ(why(R"({"scenes": "balls:1", "rays": "primary", "techniques": "exhaustive"})", 100), "");

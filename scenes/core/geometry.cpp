@@ -48,8 +48,10 @@ Cone<Real> rounded(const Cone<double>& cone) {
 }  // namespace
 
 template <class Real>
-Geometry<Real>::Geometry(const Scene& scene, ConeSides cone_sides)
-    : mostly_triangles_(8 * scene.triangles.size() >= 7 * scene.objects.size()), cone_sides_(cone_sides) {
+Geometry<Real>::Geometry(const Scene& scene, ConeSides cone_sides, Intersector intersector)
+    : mostly_triangles_(8 * scene.triangles.size() >= 7 * scene.objects.size()),
+      cone_sides_(cone_sides),
+      intersector_(intersector) {
   references_.reserve(scene.objects.size());
   scene_objects_.reserve(scene.objects.size());
   triangles_.reserve(scene.triangles.size());
@@ -158,6 +160,7 @@ Geometry<Real> Geometry<Real>::arranged(std::span<const std::uint32_t> order) co
   result.vertices_ = vertices_;
   result.bounds_ = bounds_;
   result.cone_sides_ = cone_sides_;
+  result.intersector_ = intersector_;
   result.set_aside_ = set_aside_;
   result.mostly_triangles_ = mostly_triangles_;
   result.references_.reserve(order.size());

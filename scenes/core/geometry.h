@@ -5,12 +5,34 @@
 #include <vector>
 
 #include "scenes/core/scene.h"
-#include "scenes/geometry/polygon.h"
+#include "scenes/geometry/exact.h"
+#include "scenes/geometry/intersector.h"
+#include "scenes/geometry/watertight.h"
 
 namespace rayshoot {
 
 /// Which side of a cone or cylinder can be hit; spheres, triangles and polygons are always two-sided.
 enum class ConeSides { both, outside };
+
+/// The ray-object test of an intersector: for a triangle, or for a polygon and its vertices.
+template <Intersector kIntersector, class Real>
+Real hit_distance(const Triangle<Real>& triangle, const Ray<Real>& ray) {
+  if constexpr (kIntersector == Intersector::fast) return hit_distance(triangle, ray);
+  if constexpr (kIntersector == Intersector::watertight) return watertight_hit_distance(triangle, ray);
+  return exact_hit_distance(triangle, ray);
+}
+template <class Real, class... Object>
+Real hit_distance_by(Intersector intersector, const Ray<Real>& ray, const Object&... object) {
+  switch (intersector) {
+    case Intersector::fast:
+      return hit_distance(object..., ray);
+    case Intersector::watertight:
+      return watertight_hit_distance(object..., ray);
+    case Intersector::exact:
+      return exact_hit_distance(object..., ray);
+  }
+  return kMiss<Real>;
+}
 
 /// An object that cannot be traced in a given precision, and why.
 struct SetAside {
@@ -23,7 +45,8 @@ struct SetAside {
 template <class Real>
 class Geometry {
  public:
-  explicit Geometry(const Scene& scene, ConeSides cone_sides = ConeSides::both);
+  explicit Geometry(const Scene& scene, ConeSides cone_sides = ConeSides::both,
+                    Intersector intersector = Intersector::fast);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(references_.size()); }
   bool triangles_only() const { return mostly_triangles_ && others_ == 0; }
@@ -33,12 +56,13 @@ class Geometry {
 
   /// The ray-object test: the nearest distance in (t_min, t_max] at which the ray meets `object`, or `kMiss`.
   Real hit_distance(std::uint32_t object, const Ray<Real>& ray) const;
-  /// The same where `mostly_triangles()`: the code for other kinds is kept out of the way.
+  /// The same where `mostly_triangles()` and for that intersector: the code for other kinds is kept out of the way.
+  template <Intersector kIntersector>
   Real triangle_hit_distance(std::uint32_t object, const Ray<Real>& ray) const {
     const Triangle<Real>& triangle = triangles_[object];
     if (std::isnan(triangle.a.x)) [[unlikely]]
       return other_hit_distance(object, ray);
-    return rayshoot::hit_distance(triangle, ray);
+    return rayshoot::hit_distance<kIntersector>(triangle, ray);
   }
 
   /// Conservative bounds of an object: every hit distance lies in the ray's interval inside them.
@@ -62,6 +86,7 @@ class Geometry {
   const Polygon<Real>& polygon(std::uint32_t object) const { return polygons_[index(object)]; }
   std::span<const Vec3<Real>> polygon_vertices(std::uint32_t object) const;
   ConeSides cone_sides() const { return cone_sides_; }
+  Intersector intersector() const { return intersector_; }
 
   const std::vector<SetAside>& set_aside() const { return set_aside_; }
   std::size_t bytes() const;
@@ -96,6 +121,7 @@ class Geometry {
   std::vector<Vec3<Real>> vertices_;
   Box<Real> bounds_;
   ConeSides cone_sides_ = ConeSides::both;
+  Intersector intersector_ = Intersector::fast;
   std::vector<SetAside> set_aside_;
 };
 
@@ -109,9 +135,9 @@ template <class Real>
 inline Real Geometry<Real>::hit_distance(std::uint32_t object, const Ray<Real>& ray) const {
   switch (kind(object)) {
     case ObjectKind::triangle:
-      return rayshoot::hit_distance(triangle(object), ray);
+      return hit_distance_by(intersector_, ray, triangle(object));
     case ObjectKind::polygon:
-      return rayshoot::hit_distance(polygon(object), polygon_vertices(object), ray);
+      return hit_distance_by(intersector_, ray, polygon(object), polygon_vertices(object));
     case ObjectKind::sphere:
       return rayshoot::hit_distance(sphere(object), ray);
     case ObjectKind::cone:

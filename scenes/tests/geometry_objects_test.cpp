@@ -217,7 +217,8 @@ TYPED_TEST(GeometryObjects, ArrangedObjectsAreTheSameObjects) {
         const Ray<Real> ray{.origin = {x, 0, 9}, .direction = {0, 0, -1}};
         EXPECT_EQ(arranged.hit_distance(i, ray), geometry.hit_distance(order[i], ray));
         if (triangles == 0) continue;
-        EXPECT_EQ(arranged.triangle_hit_distance(i, ray), geometry.hit_distance(order[i], ray));
+        EXPECT_EQ(arranged.template triangle_hit_distance<Intersector::fast>(i, ray),
+                  geometry.hit_distance(order[i], ray));
       }
     }
     EXPECT_EQ(arranged.bounds(), geometry.bounds());
