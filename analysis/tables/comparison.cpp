@@ -116,8 +116,9 @@ std::string title_of(const Group& group, bool several_reports) {
 std::vector<Table> comparison_tables(const std::vector<report::Report>& reports) {
   std::vector<Table> tables;
   for (const report::Report& report : reports) {
-    for (const Group& group : groups(report)) tables.push_back(table_of(group, reports.size() > 1));
-    if (!report.run.complete && !tables.empty())
+    const std::vector<Group> measured = groups(report);
+    for (const Group& group : measured) tables.push_back(table_of(group, reports.size() > 1));
+    if (!report.run.complete && !measured.empty())
       tables.back().notes.push_back("The run was interrupted: cells after this one are missing.");
   }
   return tables;

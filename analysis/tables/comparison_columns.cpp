@@ -1,7 +1,4 @@
-#include <fmt/format.h>
-
 #include "analysis/tables/comparison.h"
-#include "analysis/tables/page.h"
 
 namespace rayshoot::analysis {
 
@@ -81,12 +78,9 @@ Cell label(const Group&, const Entry& entry) {
 
 /// The time, or why there is none.
 Cell time(const Group&, const Entry& entry) {
-  const report::Verdict& verdict = entry.measurement->verdict;
-  if (verdict.status == Status::failed) return words("FAILED");
-  if (verdict.status != Status::wrong) return value_of(time_per_ray(entry));
-  if (verdict.checked_rays == 0) return words("WRONG");
-  const double share = static_cast<double>(verdict.wrong_rays) / static_cast<double>(verdict.checked_rays);
-  return words(fmt::format("WRONG {}%", significant(100 * share)));
+  const Status status = entry.measurement->verdict.status;
+  if (status == Status::failed) return words("FAILED");
+  return status == Status::wrong ? words("WRONG") : value_of(time_per_ray(entry));
 }
 
 Column in_csv(std::string key, Style style = Style::number) {

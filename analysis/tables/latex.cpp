@@ -9,7 +9,7 @@ namespace rayshoot::analysis {
 
 namespace {
 
-/// A text in which nothing is a command.
+/// A text of one paragraph in which nothing is a command.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -23,6 +23,10 @@ std::string escaped(const std::string& text) {
       result += "\\textless{}";
     else if (c == '>')
       result += "\\textgreater{}";
+    else if (c == '|')
+      result += "\\textbar{}";
+    else if (c == '\n' || c == '\r')
+      result += ' ';
     else if (std::string_view("&%$#_{}").find(c) != std::string_view::npos)
       result += std::string("\\") + c;
     else

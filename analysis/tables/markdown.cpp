@@ -7,12 +7,12 @@ namespace rayshoot::analysis {
 
 namespace {
 
-/// A text in which nothing is markup.
+/// A text of one line in which nothing is markup.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (std::string_view("\\`*_[]<>|#").find(c) != std::string_view::npos) result += '\\';
-    result += c;
+    if (std::string_view("\\`*_[]<>|#&~$").find(c) != std::string_view::npos) result += '\\';
+    result += c == '\n' || c == '\r' ? ' ' : c;
   }
   return result;
 }

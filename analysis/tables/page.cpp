@@ -29,11 +29,13 @@ bool is_shown(const Table& table, std::size_t column) {
 /// Bytes of UTF-8 that continue a character begun before.
 bool continues_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
 
-/// Cut the first `width` columns off a text that is longer.
+/// Cut the first `width` columns off a text that is longer, or fewer where punctuation ends in their second half.
 std::string cut(std::string& text, std::size_t width) {
   std::size_t end = 0, columns = 0;
   while (end < text.size() && (columns < width || continues_character(text[end])))
     columns += !continues_character(text[end++]);
+  const std::size_t mark = text.find_last_of("_(,;/|", end - 1);
+  if (mark != std::string::npos && mark >= end / 2) end = mark + 1;
   std::string head = text.substr(0, end);
   text.erase(0, end);
   return head;

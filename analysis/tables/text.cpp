@@ -10,7 +10,7 @@ namespace rayshoot::analysis {
 namespace {
 
 /// Names of rows are wrapped to no less than this.
-constexpr std::size_t kLeastNameWidth = 7;
+constexpr std::size_t kLeastNameWidth = 12;
 
 std::size_t widest(const Page& page, std::size_t column) {
   std::size_t width =
@@ -28,10 +28,8 @@ struct Layout {
     for (std::size_t column = 0; column < page.columns.size(); ++column)
       widths.push_back(widest(page, column));
     if (total() > kPageWidth) gap = 1;
-    if (total() > kPageWidth) {
-      const std::size_t others = total() - widths[0];
-      widths[0] = std::max(kLeastNameWidth, kPageWidth - std::min(kPageWidth, others));
-    }
+    const std::size_t others = total() - widths[0];
+    if (total() > kPageWidth) widths[0] = kPageWidth - std::min(others, kPageWidth - kLeastNameWidth);
   }
 
   std::size_t total() const {
@@ -47,6 +45,7 @@ struct Layout {
       end += gap + widths[column];
       result.append(end - display_width(cells[column]) - display_width(result), ' ').append(cells[column]);
     }
+    result.erase(result.find_last_not_of(' ') + 1);
     for (std::size_t i = 1; i < names.size(); ++i) result.append("\n").append(names[i]);
     return result + "\n";
   }
@@ -58,6 +57,33 @@ std::string paragraph(const std::string& text, std::size_t indent) {
   for (const std::string& line : wrapped(text, kPageWidth - indent))
     result += std::string(result.empty() ? 0 : indent, ' ') + line + "\n";
   return result;
+}
+
+/// Some columns of a page.
+Page part_of(const Page& page, const std::vector<std::size_t>& columns) {
+  const auto pick = [&](const auto& row) {
+    std::decay_t<decltype(row)> picked;
+    for (const std::size_t column : columns) picked.push_back(row[column]);
+    return picked;
+  };
+  Page part{.columns = pick(page.columns)};
+  for (const auto& row : page.rows) part.rows.push_back(pick(row));
+  return part;
+}
+
+/// A page with more columns than fit side by side, in parts that each begin with the names of the rows.
+std::vector<Page> parts_of(const Page& page) {
+  std::vector<Page> parts;
+  std::vector<std::size_t> columns{0};
+  for (std::size_t column = 1; column < page.columns.size(); ++column) {
+    columns.push_back(column);
+    if (columns.size() == 2 || Layout(part_of(page, columns)).total() <= kPageWidth) continue;
+    columns.pop_back();
+    parts.push_back(part_of(page, columns));
+    columns = {0, column};
+  }
+  parts.push_back(part_of(page, columns));
+  return parts;
 }
 
 std::string body(const Page& page) {
@@ -75,7 +101,8 @@ std::string body(const Page& page) {
 
 std::string section(const Table& table) {
   std::string result = paragraph(table.title, 2);
-  if (!table.rows.empty()) result += body(page_of(table));
+  if (!table.rows.empty())
+    for (const Page& part : parts_of(page_of(table))) result += body(part);
   if (!table.notes.empty()) result += "\n";
   for (const std::string& note : table.notes) result += paragraph(note, 2);
   return result + "\n";
