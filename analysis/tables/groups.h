@@ -25,8 +25,8 @@ struct Entry {
   const report::Measurement *zero_overhead = nullptr, *embree = nullptr;
 };
 
-/// All measurements of a scene, its rays, a precision and an intersector, sorted: by time, or by tests per ray where there is no time;
-/// then those that are wrong, and those that failed.
+/// All measurements of a scene, its rays, a precision and an intersector, sorted: by time, or by tests per ray where
+/// there is no time; then those that are wrong, and those that failed.
 struct Group {
   const report::Report* report = nullptr;
   std::string scene_id, rays_id, scalar, intersector;

@@ -161,19 +161,22 @@ TEST(Comparison, LabelsHaveTheKeysThatDifferAndThoseThatAreNotAlwaysThere) {
   EXPECT_THAT(row_names(measured(report)), Contains("uniform_grid(density=8)"));
 }
 
-TEST(Comparison, GroupsByScalarAndKeepsTheOrderOfScenes) {
+TEST(Comparison, GroupsByPrecisionAndKeepsTheOrderOfScenes) {
   report::Report report = small_report();
   report.scenes.insert(report.scenes.begin(), {.id = "gears:1/curves", .objects = 7});
   report::Measurement other = measurement(report, "bvh_sah");
   other.scalar = "double";
   report.measurements.push_back(other);
+  other.intersector = "watertight";
+  report.measurements.push_back(other);
   other.scene = "gears:1/curves", other.rays = "gears:1/curves/chords";
   report.measurements.push_back(other);
   std::vector<std::string> titles;
   for (const Table& table : comparison_tables({report})) titles.push_back(table.title);
-  EXPECT_THAT(titles, ElementsAre("gears:1/curves, chords, double; 7 objects",
+  EXPECT_THAT(titles, ElementsAre("gears:1/curves, chords, double, watertight; 7 objects",
                                   "balls:2/curves, whitted@9, float; 50 objects; 100 rays",
                                   "balls:2/curves, whitted@9, double; 50 objects; 100 rays",
+                                  "balls:2/curves, whitted@9, double, watertight; 50 objects; 100 rays",
                                   "balls:2/curves, light, float; 50 objects"));
 }
 

@@ -64,6 +64,8 @@ TEST(Overview, IsForSeveralGroupsOfOnePrecision) {
   for (report::Measurement m : small_report().measurements) {
     m.scalar = "double";
     report.measurements.push_back(m);
+    m.intersector = "watertight";
+    report.measurements.push_back(m);
   }
   EXPECT_THAT(overview_tables({report}), IsEmpty());
 }
