@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
-#include "scenes/core/scene_builder.h"
 #include "scenes/io/subdivide.h"
+#include "scenes/stiff/parts/scenes.h"
 
 namespace rayshoot::stiff {
 
@@ -148,11 +148,8 @@ Solid random_solid(SubdivisionRule rule, int steps, std::uint64_t seed) {
 
 std::shared_ptr<const Scene> scene_of(const TriangleMesh& mesh, const std::string& id) {
   SceneBuilder builder;
-  for (const auto& [a, b, c] : mesh.triangles)
-    builder.triangle(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
-  auto scene = std::make_shared<Scene>(std::move(builder).finish());
-  scene->id = id;
-  return scene;
+  add_mesh(builder, mesh);
+  return share(std::move(builder), id);
 }
 
 std::vector<std::array<std::uint32_t, 2>> edges_of(const TriangleMesh& mesh) {
