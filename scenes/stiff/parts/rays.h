@@ -26,10 +26,4 @@ inline Ray<double> ray_to(const Vec3d& origin, const Vec3d& target) {
   return {.origin = start, .direction = path == Vec3d{} ? Vec3d{0, 0, 1} : path};
 }
 
-/// The same ray with every length multiplied by `scale`, a power of two.
-inline Ray<double> scaled(Ray<double> ray, double scale) {
-  ray.origin *= scale, ray.direction *= scale;
-  return ray;
-}
-
 }  // namespace rayshoot::stiff
