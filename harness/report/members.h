@@ -16,6 +16,7 @@ inline constexpr const char* kSchemaName = "rayshoot.report";
 inline constexpr std::array kStatusNames = {"ok", "wrong", "graded", "failed"};
 inline constexpr std::array kScalarNames = {"float", "double"};
 inline constexpr std::array kIntersectorNames = {"fast", "watertight", "exact"};
+inline constexpr std::array kPropertyNames = {"as_oracle", "always_hit", "never_hit", "same_as_base"};
 inline constexpr std::array kQueryNames = {"closest", "any", "closest+any"};
 
 /// T, to be read into, or const T, to be written.
@@ -69,6 +70,7 @@ void members(T& scene, Visitor& visitor) {
   visitor.required("counts", scene.counts);
   visitor.optional("bounds", scene.bounds);
   visitor.required("hash", scene.hash);
+  visitor.optional("stiffness", scene.stiffness);
   visitor.required("needs", scene.needs);
   visitor.required("set_aside", scene.set_aside);
   visitor.required("left_out", scene.left_out);
@@ -139,6 +141,22 @@ void members(T& efficiency, Visitor& visitor) {
   visitor.required("m_strict_ci95", efficiency.m_strict_ci95);
 }
 
+template <Some<Ulps> T, class Visitor>
+void members(T& ulps, Visitor& visitor) {
+  visitor.required("median", ulps.median);
+  visitor.required("p99", ulps.p99);
+  visitor.required("p999", ulps.p999);
+  visitor.required("max", ulps.max);
+}
+
+template <Some<Errors> T, class Visitor>
+void members(T& errors, Visitor& visitor) {
+  visitor.required("graded_rays", errors.graded_rays);
+  visitor.required("answers", errors.answers);
+  visitor.optional("ulps_of_t", errors.ulps_of_t);
+  visitor.optional("ulps_of_point", errors.ulps_of_point);
+}
+
 template <Some<ThreadTimes> T, class Visitor>
 void members(T& times, Visitor& visitor) {
   visitor.required("threads", times.threads);
@@ -160,10 +178,38 @@ void members(T& measurement, Visitor& visitor) {
   visitor.optional("structure", measurement.structure);
   visitor.optional("predicted", measurement.predicted);
   visitor.optional("efficiency", measurement.efficiency);
+  visitor.optional("errors", measurement.errors);
   visitor.optional("build_ns", measurement.build_ns);
   visitor.optional("trace_ns", measurement.trace_ns);
   visitor.required("trace_threads", measurement.trace_threads);
   visitor.optional("threads", measurement.threads);
+}
+
+template <Some<Grading> T, class Visitor>
+void members(T& grading, Visitor& visitor) {
+  visitor.required("case", grading.torture_case);
+  visitor.required("setting", grading.setting);
+  visitor.choice("property", grading.property, kPropertyNames);
+  visitor.required("technique", grading.technique);
+  visitor.required("config", grading.config);
+  visitor.choice("scalar", grading.scalar, kScalarNames);
+  visitor.optional_choice("intersector", grading.intersector, kIntersectorNames);
+  visitor.required("flush_to_zero", grading.flush_to_zero);
+  visitor.required("objects", grading.objects);
+  visitor.required("set_aside", grading.set_aside);
+  visitor.optional("stiffness", grading.stiffness);
+  visitor.required("parameter", grading.parameter);
+  visitor.optional("base", grading.base);
+  visitor.required("rays", grading.rays);
+  visitor.required("errors", grading.errors);
+  visitor.required("leaks", grading.leaks);
+  visitor.required("forbidden_hits", grading.forbidden_hits);
+  visitor.required("changed", grading.changed);
+  visitor.required("any_differs", grading.any_differs);
+  visitor.required("threads_differ", grading.threads_differ);
+  visitor.optional("work", grading.work);
+  visitor.required("most_steps", grading.most_steps);
+  visitor.optional("message", grading.message);
 }
 
 template <Some<LeftOutCell> T, class Visitor>
@@ -184,6 +230,7 @@ void members(T& report, Visitor& visitor) {
   visitor.required("ray_sets", report.ray_sets);
   visitor.required("measurements", report.measurements);
   visitor.required("left_out", report.left_out);
+  visitor.optional("gradings", report.gradings);
 }
 
 }  // namespace rayshoot::report

@@ -60,6 +60,8 @@ struct Scene {
   /// Absent for a scene without objects.
   std::optional<Bounds> bounds;
   std::string hash;
+  /// Scene diagonal over smallest feature; absent where the scene has none.
+  std::optional<double> stiffness;
   std::map<std::string, bool> needs;
   /// Objects that could not be traced, by reason.
   std::map<std::string, std::uint64_t> set_aside;
@@ -115,6 +117,19 @@ struct Efficiency {
   std::array<double, 2> m_strict_ci95{};
 };
 
+/// Errors in units in the last place. Quantiles are those of a histogram: at most 5 % too large.
+struct Ulps {
+  double median = 0, p99 = 0, p999 = 0, max = 0;
+};
+
+/// Nearest hits held against exact arithmetic. Answers by class: "exact", "ambiguous", "near", "wrong_object",
+/// "false_miss", "false_hit", "not_a_number", "over_steps", "crash".
+struct Errors {
+  std::uint64_t graded_rays = 0;
+  std::map<std::string, std::uint64_t> answers;
+  std::optional<Ulps> ulps_of_t, ulps_of_point;
+};
+
 /// Trace times with a number of threads, one entry a repetition.
 struct ThreadTimes {
   int threads = 1;
@@ -140,12 +155,48 @@ struct Measurement {
   std::optional<Structure> structure;
   std::optional<Predicted> predicted;
   std::optional<Efficiency> efficiency;
+  std::optional<Errors> errors;
   /// Wall time of each build and of each pass over the whole batch, in nanoseconds.
   std::vector<double> build_ns, trace_ns;
   /// Threads that traced while `trace_ns` was taken.
   int trace_threads = 1;
   /// Thread scaling, where asked for.
   std::vector<ThreadTimes> threads;
+};
+
+/// Answers of a technique to the rays of one setting of a torture case, held against exact arithmetic and against what
+/// the case promises.
+struct Grading {
+  std::string torture_case;
+  std::string setting;
+  /// What must hold: "as_oracle", "always_hit", "never_hit" or "same_as_base".
+  std::string property;
+  std::string technique;
+  std::map<std::string, ConfigValue> config;
+  std::string scalar;
+  std::string intersector = "fast";
+  /// Whether denormal numbers were taken as zero.
+  bool flush_to_zero = false;
+  std::uint64_t objects = 0, set_aside = 0;
+  /// Scene diagonal over smallest feature; absent where the scene has none.
+  std::optional<double> stiffness;
+  /// The x of the case.
+  double parameter = 0;
+  /// The setting that this one is a stressed form of.
+  std::optional<std::string> base;
+  /// Rays answered.
+  std::uint64_t rays = 0;
+  /// Of those that were graded; "over_steps" and "crash" count among all.
+  Errors errors;
+  /// Misses where the property forbids them, and hits where it does; answers that differ from the base's.
+  std::uint64_t leaks = 0, forbidden_hits = 0, changed = 0;
+  /// Rays for which the any-hit query, or tracing with more threads, says something else.
+  std::uint64_t any_differs = 0, threads_differ = 0;
+  /// Work of the first rays, and the most steps that one of them took.
+  std::optional<Work> work;
+  std::uint64_t most_steps = 0;
+  /// Why nothing was traced, or why it was given up.
+  std::optional<std::string> message;
 };
 
 /// A cell that was planned and not run; `technique` is the specification that was asked for.
@@ -162,6 +213,8 @@ struct Report {
   std::vector<RaySet> ray_sets;
   std::vector<Measurement> measurements;
   std::vector<LeftOutCell> left_out;
+  /// What `rayshoot torture` found out.
+  std::vector<Grading> gradings;
 };
 
 /// Thrown when a file is not a report or cannot be read or written; `what()` is one line.

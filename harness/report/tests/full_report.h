@@ -32,6 +32,7 @@ inline report::Report full_report() {
                     .counts = {{"polygon", 1}, {"sphere", 91}},
                     .bounds = report::Bounds{{-1, -2, -3.5}, {1, 2, 0.1}},
                     .hash = "00000000000000aa",
+                    .stiffness = 100,
                     .needs = {{"shadow_rays", true}, {"triangles_only", false}},
                     .set_aside = {{"not finite", 3}},
                     .left_out = {{"refracted rays", "no material transmits"}}}};
@@ -65,12 +66,39 @@ inline report::Report full_report() {
        .structure = report::Structure{64, 63, 40, 120, 1, 4096},
        .predicted = report::Predicted{4.5, 2.25},
        .efficiency = report::Efficiency{0.036, {0.03, 0.042}, 0.14, {0.13, 0.15}},
+       .errors =
+           report::Errors{
+               30, {{"exact", 29}, {"near", 1}}, report::Ulps{0.5, 1, 2, 3}, report::Ulps{0, 1, 1, 2}},
        .build_ns = {1000, 1001.5},
        .trace_ns = {3000, 3100, 3050},
        .trace_threads = 1,
        .threads = {{2, {1600, 1650}}}}};
   report.left_out = {
       {"balls:2/curves", "balls:2/curves/light", "exhaustive", "double", "exact", "it is slow"}};
+  report.gradings = {
+      {.torture_case = "closed_vertex",
+       .setting = "level=3",
+       .property = "always_hit",
+       .technique = "uniform_grid",
+       .config = {{"density", 0.1}},
+       .scalar = "float",
+       .intersector = "watertight",
+       .flush_to_zero = true,
+       .objects = 1280,
+       .set_aside = 1,
+       .stiffness = 12.5,
+       .parameter = 3,
+       .base = "level=2",
+       .rays = 1000,
+       .errors = report::Errors{100, {{"exact", 100}}, report::Ulps{0.5, 1, 2, 3}, report::Ulps{0, 1, 1, 2}},
+       .leaks = 1,
+       .forbidden_hits = 2,
+       .changed = 3,
+       .any_differs = 4,
+       .threads_differ = 5,
+       .work = report::Work{30, 120, 100, 60, 90, 80, 20, 10},
+       .most_steps = 17,
+       .message = "given up after 20 crashes"}};
   return report;
 }
 

@@ -85,7 +85,10 @@ TEST(Schema, HasTheMembersOfTheCode) {
                                                    {"predicted", cell["predicted"]},
                                                    {"efficiency", cell["efficiency"]},
                                                    {"thread_times", cell["threads"][0]},
-                                                   {"left_out_cell", report["left_out"][0]}};
+                                                   {"left_out_cell", report["left_out"][0]},
+                                                   {"errors", cell["errors"]},
+                                                   {"ulps", cell["errors"]["ulps_of_t"]},
+                                                   {"grading", report["gradings"][0]}};
   EXPECT_EQ(std::size(examples), schema["definitions"].size());
   for (const auto& [name, object] : examples) {
     const json& definition = schema["definitions"][name];
