@@ -1,4 +1,5 @@
 #include "analysis/tables/comparison.h"
+#include "analysis/tables/labels.h"
 
 namespace rayshoot::analysis {
 

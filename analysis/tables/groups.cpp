@@ -1,12 +1,10 @@
 #include "analysis/tables/groups.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <limits>
-#include <set>
 #include <tuple>
+
+#include "analysis/tables/labels.h"
 
 namespace rayshoot::analysis {
 
@@ -14,44 +12,6 @@ namespace {
 
 using report::Measurement;
 using report::Status;
-using Config = std::map<std::string, report::ConfigValue>;
-
-std::string text(const report::ConfigValue& value) {
-  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "on" : "off";
-  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
-}
-
-/// The entries of a configuration whose keys are wanted, each as "key=value".
-template <class Wanted>
-std::vector<std::string> assignments(const Config& config, const Wanted& wanted) {
-  std::vector<std::string> texts;
-  for (const auto& [key, value] : config)
-    if (wanted(key)) texts.push_back(fmt::format("{}={}", key, text(value)));
-  return texts;
-}
-
-/// The keys of a technique's configuration that have several values in a report, or are not always there.
-std::set<std::string> differing_keys(const report::Report& report, const std::string& technique) {
-  std::map<std::string, std::set<std::string>> values;
-  std::map<std::string, std::size_t> uses;
-  std::size_t measurements = 0;
-  for (const Measurement& measurement : report.measurements) {
-    if (measurement.technique != technique) continue;
-    ++measurements;
-    for (const auto& [key, value] : measurement.config) values[key].insert(text(value)), ++uses[key];
-  }
-  std::set<std::string> keys;
-  for (const auto& [key, texts] : values)
-    if (texts.size() > 1 || uses[key] < measurements) keys.insert(key);
-  return keys;
-}
-
-std::string label(const Measurement& measurement, const std::set<std::string>& keys) {
-  const auto texts =
-      assignments(measurement.config, [&](const std::string& key) { return keys.contains(key); });
-  if (texts.empty()) return measurement.technique;
-  return fmt::format("{}({})", measurement.technique, fmt::join(texts, ", "));
-}
 
 template <class Listed>
 const Listed* find(const std::vector<Listed>& list, const std::string& id) {
@@ -115,13 +75,12 @@ void compare(Group& group) {
 
 std::vector<Group> groups(const report::Report& report) {
   std::vector<Group> result;
-  std::map<std::string, std::set<std::string>> keys;
-  for (const Measurement& measurement : report.measurements) {
-    const std::string& technique = measurement.technique;
-    if (!keys.contains(technique)) keys[technique] = differing_keys(report, technique);
+  Labels labels;
+  for (const Measurement& measurement : report.measurements)
+    labels.add(measurement.technique, measurement.config);
+  for (const Measurement& measurement : report.measurements)
     group_of(result, report, measurement)
-        .entries.push_back({&measurement, label(measurement, keys[technique])});
-  }
+        .entries.push_back({&measurement, labels(measurement.technique, measurement.config)});
   for (const report::LeftOutCell& cell : report.left_out)
     group_of(result, report, cell).left_out.push_back(&cell);
   for (Group& group : result) compare(group);
@@ -130,10 +89,6 @@ std::vector<Group> groups(const report::Report& report) {
     return std::less<>()(a.scene, b.scene);
   });
   return result;
-}
-
-std::string config_text(const Config& config) {
-  return fmt::format("{}", fmt::join(assignments(config, [](const std::string&) { return true; }), ";"));
 }
 
 std::optional<Estimate> time_per_ray(const Entry& entry) {

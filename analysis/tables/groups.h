@@ -40,9 +40,6 @@ struct Group {
 /// In the order of the report's scenes.
 std::vector<Group> groups(const report::Report& report);
 
-/// All of a configuration: "density=0.5;mailbox=on".
-std::string config_text(const std::map<std::string, report::ConfigValue>& config);
-
 /// Nanoseconds a ray: the median of the repetitions.
 std::optional<Estimate> time_per_ray(const Entry& entry);
 

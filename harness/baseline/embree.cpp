@@ -17,13 +17,12 @@
 //            It aborts on rays that are not finite, so these miss without asking it. A native sphere that a
 //            ray starts on exactly may be hit at t_min.
 
-#include <immintrin.h>
-
 #include <array>
 #include <stdexcept>
 
 #include "accel/core/engine.h"
 #include "harness/baseline/baselines.h"
+#include "harness/baseline/denormals.h"
 #include "harness/baseline/embree_objects.h"
 
 namespace rayshoot {
@@ -48,20 +47,6 @@ struct EmbreeConfig {
                                : RTC_BUILD_QUALITY_MEDIUM;
     if (coherent && !stream) throw InputError("embree: coherent=on needs mode=stream");
   }
-};
-
-/// Takes denormal numbers as zero for as long as it lives, where it is told to.
-class FlushToZero {
- public:
-  explicit FlushToZero(bool on) : saved_(_mm_getcsr()) {
-    if (on) _mm_setcsr(saved_ | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON);
-  }
-  ~FlushToZero() { _mm_setcsr(saved_); }
-  FlushToZero(const FlushToZero&) = delete;
-  FlushToZero& operator=(const FlushToZero&) = delete;
-
- private:
-  unsigned saved_;
 };
 
 /// Whether Embree takes the ray: it aborts on numbers that are not finite or too large, and on a negative

@@ -16,6 +16,7 @@ void add_run(CLI::App& program, const std::string& command_line, int& status);
 void add_scenes(CLI::App& program);
 void add_table(CLI::App& program);
 void add_techniques(CLI::App& program);
+void add_torture(CLI::App& program, const std::string& command_line, int& status);
 void add_validate(CLI::App& program, int& status);
 
 }  // namespace rayshoot::cli

@@ -57,11 +57,13 @@ int run(int count, const char* const* arguments) {
   add_rays(program);
   add_render(program);
   int status = 0;
-  add_run(program, fmt::format("{}", fmt::join(arguments, arguments + count, " ")), status);
+  const std::string command_line = fmt::format("{}", fmt::join(arguments, arguments + count, " "));
+  add_run(program, command_line, status);
   add_scene(program);
   add_scenes(program);
   add_table(program);
   add_techniques(program);
+  add_torture(program, command_line, status);
   add_validate(program, status);
   try {
     program.parse(count, arguments);

@@ -3,22 +3,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <csignal>
-#include <filesystem>
+#include <algorithm>
 #include <memory>
 
 #include "analysis/tables/comparison.h"
 #include "harness/cli/commands.h"
+#include "harness/cli/long_run.h"
 #include "harness/cli/progress.h"
-#include "harness/cli/writable.h"
 #include "harness/measure/environment.h"
 
 namespace rayshoot::cli {
 
 namespace {
 
-constexpr int kCheckFailed = 1;
-constexpr int kInterrupted = 130;
 constexpr const char* kDefaultSuite = "quick";
 
 /// What is given on the command line; what is not leaves the suite as it is.
@@ -31,14 +28,6 @@ struct Options {
   bool counts_only = false;
   std::string output;
 };
-
-volatile std::sig_atomic_t interrupts = 0;
-
-/// The first interrupt asks the run to stop after the step in hand; a second one ends the program at once.
-void interrupt(int signal) {
-  interrupts = interrupts + 1;
-  std::signal(signal, SIG_DFL);
-}
 
 template <class Value>
 void replace(Value& target, const Value& given) {
@@ -63,19 +52,6 @@ Suite suite_of(const Options& options) {
   return suite;
 }
 
-/// Reports of one's own go to results/local of the project the program was built in, or of the current
-/// folder.
-std::filesystem::path default_output(const std::string& run_id) {
-  const std::filesystem::path project = RAYSHOOT_SOURCE;
-  const auto folder =
-      (std::filesystem::exists(project) ? project : std::filesystem::current_path()) / "results" / "local";
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed)
-    throw InputError(fmt::format("{}: {}; say where to write with -o", folder.string(), failed.message()));
-  return folder / (run_id + ".json");
-}
-
 bool any_failure(const report::Report& report) {
   return std::any_of(report.measurements.begin(), report.measurements.end(), [](const auto& measurement) {
     return measurement.verdict.status == report::Status::wrong ||
@@ -86,14 +62,13 @@ bool any_failure(const report::Report& report) {
 int run_command(const Options& options, const std::string& command_line) {
   const Plan plan = make_plan(suite_of(options));
   const report::Run started = started_run(command_line, plan.suite.seed);
-  const std::string output = options.output.empty() ? default_output(started.id).string() : options.output;
-  require_writable(output);
+  const std::string output = report_path(options.output, started.id);
 
-  std::signal(SIGINT, interrupt);
+  stop_on_interrupt();
   report::Report report;
   {
     Progress progress(plan.cells());
-    report = run(plan, started, progress, [] { return interrupts > 0; });
+    report = run(plan, started, progress, interrupted);
   }
   report::write_report(report, output);
   fmt::print("{}\nReport: {}\n", analysis::render_comparison({report}, analysis::Format::text), output);

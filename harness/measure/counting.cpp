@@ -3,23 +3,14 @@
 #include <algorithm>
 #include <random>
 
+#include "harness/measure/record.h"
+
 namespace rayshoot {
 
 namespace {
 
 /// Rays whose strict work is counted first, to learn how many more are affordable.
 constexpr std::size_t kProbeRays = 256;
-
-report::Work record(const Work& work) {
-  return {.rays = work.rays,
-          .object_tests = work.object_tests,
-          .distinct_objects = work.distinct_objects,
-          .volume_tests = work.volume_tests,
-          .steps = work.steps,
-          .cells = work.cells,
-          .empty_cells = work.empty_cells,
-          .mailbox_hits = work.mailbox_hits};
-}
 
 /// M: the mean number of distinct candidates over the number of objects, equation (21), with the 95 %
 /// interval of the mean.

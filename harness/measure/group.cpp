@@ -7,6 +7,7 @@
 
 #include "harness/measure/building.h"
 #include "harness/measure/counting.h"
+#include "harness/measure/record.h"
 #include "harness/measure/timing.h"
 #include "harness/verify/oracle.h"
 
@@ -18,22 +19,6 @@ namespace {
 constexpr double kShortSeconds = 0.01;
 /// Passes longer than this are not warmed up again: checking their answers has done that.
 constexpr double kLongSeconds = 0.25;
-
-std::map<std::string, report::ConfigValue> config_of(const Arguments& arguments) {
-  std::map<std::string, report::ConfigValue> config;
-  for (const auto& [name, value] : arguments.values())
-    std::visit([&config, &key = name](const auto& v) { config.emplace(key, v); }, value);
-  return config;
-}
-
-report::Structure record(const StructureStats& stats) {
-  return {.nodes = stats.nodes,
-          .leaves = stats.leaves,
-          .empty_leaves = stats.empty_leaves,
-          .references = stats.references,
-          .max_depth = stats.max_depth,
-          .bytes = stats.bytes};
-}
 
 std::string query_of(const RaySet& set) {
   if (set.closest_rays == set.rays.size()) return "closest";

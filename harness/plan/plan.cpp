@@ -88,13 +88,6 @@ std::string beyond_technique(const CellFacts& cell) {
   return {};
 }
 
-void require_known(const char* what, const std::vector<std::string>& names,
-                   const std::vector<std::string>& known) {
-  for (const std::string& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(unknown_name(what, name, known));
-}
-
 }  // namespace
 
 Plan make_plan(Suite suite) {

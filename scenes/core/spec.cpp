@@ -217,4 +217,11 @@ std::string unknown_name(const std::string& what, const std::string& name,
                      known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
 }
 
+void require_known(const std::string& what, const std::vector<std::string>& names,
+                   const std::vector<std::string>& known) {
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(unknown_name(what, name, known));
+}
+
 }  // namespace rayshoot

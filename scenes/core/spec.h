@@ -82,4 +82,8 @@ std::string text_of(const Arguments::Value& value);
 std::string unknown_name(const std::string& what, const std::string& name,
                          const std::vector<std::string>& known);
 
+/// Throws InputError with that message on the first of the names that is not known.
+void require_known(const std::string& what, const std::vector<std::string>& names,
+                   const std::vector<std::string>& known);
+
 }  // namespace rayshoot
