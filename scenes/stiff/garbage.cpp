@@ -29,12 +29,11 @@ Vec3d random_bits(const RandomNumbers& random, std::uint64_t number, std::uint64
           float_of(random.bits(number, dimension + 2))};
 }
 
+/// Random bits, with another exponent where they are not finite.
 Vec3d random_finite_bits(const RandomNumbers& random, std::uint64_t number, std::uint64_t dimension) {
-  // Without the highest bit of the exponent neither infinity nor not-a-number is left.
-  Vec3d result;
+  Vec3d result = random_bits(random, number, dimension);
   for (int axis = 0; axis < 3; ++axis)
-    result[axis] =
-        float_of(random.bits(number, dimension + static_cast<std::uint64_t>(axis)) & ~0x40000000ull);
+    if (!std::isfinite(result[axis])) result[axis] = 1;
   return result;
 }
 
@@ -63,9 +62,13 @@ Ray<double> good_ray(const Solid& solid, const RandomNumbers& random, std::uint6
                 vertices[random.bits(number, 0) % vertices.size()]);
 }
 
+/// Random bits, every other one from a point near the solid, every fourth one to such a point.
 Ray<double> finite_ray(const RandomNumbers& random, std::uint64_t number) {
-  return {.origin = random_finite_bits(random, number, 0),
-          .direction = random_finite_bits(random, number, 3)};
+  Ray<double> ray{.origin = random_finite_bits(random, number, 50),
+                  .direction = random_finite_bits(random, number, 53)};
+  if (number % 4 == 0) return ray_to(ray.origin, point_in_cube(random, number, 56));
+  if (number % 2 == 0) ray.origin = rounded(point_in_cube(random, number, 56) * 2);
+  return ray;
 }
 
 Ray<double> spoiled_ray(const Solid& solid, const RandomNumbers& random, std::uint64_t number) {

@@ -87,7 +87,7 @@ std::vector<StiffSetting> settings(int size, std::uint64_t) {
   std::vector<StiffSetting> result;
   for (int k = 0; k <= 9; k += size > 1 ? 1 : 3) {
     const double scale = std::pow(10, -k);
-    const std::string label = fmt::format("scale=1e-{}", k);
+    const std::string label = k == 0 ? "scale=1" : fmt::format("scale=1e-{}", k);
     const auto scene = stadium(cup, scale, label);
     result.push_back({.label = label,
                       .scene = scene,

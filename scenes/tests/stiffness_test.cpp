@@ -40,5 +40,29 @@ TEST(Stiffness, LeavesOutWhatIsNotTraced) {
             2);
 }
 
+TEST(Stiffness, OfAConeIsItsHeightOrADiameter) {
+  const auto cone = [](double base_radius, double height, double apex_radius) {
+    return smallest_feature(scene_of([=](SceneBuilder& b) {
+      b.cone({0, 0, 0}, base_radius, {0, 0, height}, apex_radius);
+    }));
+  };
+  EXPECT_EQ(cone(1, 0.75, 2), 0.75);
+  EXPECT_EQ(cone(1, 3, 0.25), 0.5);
+  EXPECT_EQ(cone(0.25, 3, 0), 0.5);
+}
+
+TEST(Stiffness, SurvivesTinyAndHugeScenesAndRepeatedVertices) {
+  for (const double scale : {0x1p-149, 0x1p400}) {
+    const Scene scene = scene_of([=](SceneBuilder& b) {
+      b.triangle({0, 0, 0}, {2 * scale, 0, 0}, {0, 2 * scale, 0});
+    });
+    EXPECT_NEAR(*stiffness(scene), 2, 1e-12) << scale;
+  }
+  EXPECT_EQ(smallest_feature(scene_of([](SceneBuilder& b) {
+              b.polygon(std::array<Vec3d, 4>{{{2, 0, 0}, {2, 0, 0}, {5, 0, 0}, {2, 4, 0}}});
+            })),
+            3);
+}
+
 }  // namespace
 }  // namespace rayshoot
