@@ -280,7 +280,7 @@ class BvhGoldsmithSalmon {
   Prediction<Real> predicted() const {
     Prediction<Real> sum{0, 1.0 + root_children_, bounds_};
     for (const Child& child : children_) {
-      const double probability = static_cast<double>(child.box.surface_area()) / bounds_.surface_area();
+      const double probability = child.box.surface_area() / bounds_.surface_area();
       if (child.is_object())
         sum.object_tests += probability;
       else

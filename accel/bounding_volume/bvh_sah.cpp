@@ -161,7 +161,7 @@ class BvhSah {
 
   void predict(const ChildReference& node, const Box<Real>& box, Prediction<Real>& sum) const {
     const double probability =
-        static_cast<double>(box.surface_area()) / static_cast<double>(bounds_.surface_area());
+        box.surface_area() / bounds_.surface_area();
     if (node.leaf()) {
       sum.object_tests += probability * node.count;
       return;

@@ -99,7 +99,7 @@ class Bins {
     for (int b = kCount - 1; b > 0; --b) {
       right.box.include(bins_[axis][b].box);
       right.count += bins_[axis][b].count;
-      right_cost[b] = static_cast<double>(right.box.surface_area()) * static_cast<double>(right.count);
+      right_cost[b] = right.box.surface_area() * static_cast<double>(right.count);
       right_count[b] = right.count;
     }
     Bin left;
@@ -107,7 +107,7 @@ class Bins {
       left.box.include(bins_[axis][b - 1].box);
       left.count += bins_[axis][b - 1].count;
       if (left.count == 0 || right_count[b] == 0) continue;
-      const double left_cost = static_cast<double>(left.box.surface_area()) * static_cast<double>(left.count);
+      const double left_cost = left.box.surface_area() * static_cast<double>(left.count);
       const double cost = (left_cost + right_cost[b]) / parent_area;
       if (cost < best.cost) best = {axis, static_cast<std::size_t>(b), cost};
     }
@@ -140,13 +140,13 @@ SahSplit<Real> sweep_split(std::span<BoxedObject<Real>> objects, const Box<Real>
     Box<Real> right;
     for (std::size_t i = count - 1; i > 0; --i) {
       right.include(objects[i].box);
-      right_cost[i] = static_cast<double>(right.surface_area()) * static_cast<double>(count - i);
+      right_cost[i] = right.surface_area() * static_cast<double>(count - i);
     }
     Box<Real> left;
     for (std::size_t i = 1; i < count; ++i) {
       left.include(objects[i - 1].box);
       const double cost =
-          (static_cast<double>(left.surface_area()) * static_cast<double>(i) + right_cost[i]) / parent_area;
+          (left.surface_area() * static_cast<double>(i) + right_cost[i]) / parent_area;
       if (cost < best.cost) best = {axis, i, cost};
     }
   }

@@ -23,7 +23,7 @@ class SurfaceMargin {
   Real of_ray(const Ray<Real>& ray) const {
     using Limits = std::numeric_limits<Real>;
     const Real length = max_abs(ray.direction), distance = max_abs(ray.origin - centre_);
-    if (!(length >= std::sqrt(Limits::min()) && length <= std::sqrt(Limits::max())))
+    if (!(length >= Limits::min() / Limits::epsilon() * 8 && length <= Limits::max() * Limits::epsilon() / 8))
       return Limits::infinity();
     return distance <= kReach * size_ ? 0 : kRounding * distance;
   }

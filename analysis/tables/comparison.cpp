@@ -4,8 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
+#include "analysis/tables/grading.h"
 #include "analysis/tables/page.h"
+#include "analysis/work_precision/work_precision.h"
 
 namespace rayshoot::analysis {
 
@@ -83,6 +86,8 @@ std::vector<std::string> notes_of(const Group& group) {
 std::string task_of(const Group& group) {
   std::string task;
   if (group.scene) task += fmt::format("; {} objects", group.scene->objects);
+  if (group.scene && group.scene->stiffness)
+    task += fmt::format(", stiffness {}", significant(*group.scene->stiffness));
   if (group.rays) task += fmt::format("; {} rays", group.rays->rays);
   const int threads = group.entries.empty() ? 1 : group.entries[0].measurement->trace_threads;
   if (threads > 1) task += fmt::format("; {} threads", threads);
@@ -126,9 +131,15 @@ std::vector<Table> comparison_tables(const std::vector<report::Report>& reports)
 
 std::string render_comparison(const std::vector<report::Report>& reports, Format format) {
   std::vector<Table> tables = comparison_tables(reports);
-  if (format == Format::csv) return render(tables, format);
-  for (Table& table : scaling_tables(reports)) tables.push_back(std::move(table));
-  for (Table& table : overview_tables(reports)) tables.push_back(std::move(table));
+  const auto append = [&](std::vector<Table> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(tables));
+  };
+  if (format != Format::csv) {
+    append(scaling_tables(reports));
+    append(overview_tables(reports));
+    append(work_precision_tables(reports));
+  }
+  append(grading_tables(reports, format == Format::csv));
   return render(tables, format);
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
+#include "analysis/statistics/rate.h"
 #include "analysis/tables/labels.h"
 
 namespace rayshoot::analysis {
@@ -65,11 +65,7 @@ std::uint64_t leaks(const Row& row) {
   return sum(row, [](const Grading& g) { return g.leaks; });
 }
 
-Cell leaks_per_billion(const Row& row) {
-  const std::uint64_t rays = promised(row);
-  if (rays == 0) return {};
-  return {1e9 * static_cast<double>(leaks(row)) / static_cast<double>(rays), ""};
-}
+Cell leaks_per_billion(const Row& row) { return {per_billion(leaks(row), promised(row)), ""}; }
 
 double work_per_ray(const Grading& grading) {
   const report::Work& work = *grading.work;
@@ -191,16 +187,7 @@ Table table_of(const Row& gradings, const report::Report& report, const Labels& 
 
 }  // namespace
 
-std::optional<double> upper_bound_per_billion(std::uint64_t events, std::uint64_t trials) {
-  if (trials == 0) return std::nullopt;
-  const double n = static_cast<double>(trials), p = static_cast<double>(events) / n;
-  if (events == 0) return 3e9 / n;
-  constexpr double z = 1.959963984540054, z2 = z * z;
-  const double middle = p + z2 / (2 * n), half = z * std::sqrt(p * (1 - p) / n + z2 / (4 * n * n));
-  return 1e9 * (middle + half) / (1 + z2 / n);
-}
-
-std::string render_gradings(const std::vector<report::Report>& reports, Format format) {
+std::vector<Table> grading_tables(const std::vector<report::Report>& reports, bool by_setting) {
   std::vector<Table> tables;
   for (const report::Report& report : reports) {
     Labels labels;
@@ -208,9 +195,9 @@ std::string render_gradings(const std::vector<report::Report>& reports, Format f
     for (const Grading& grading : report.gradings)
       labels.add(grading.technique, grading.config), all.push_back(&grading);
     for (const Row& of_case : rows_by(all, [](const Grading& grading) { return grading.torture_case; }))
-      tables.push_back(table_of(of_case, report, labels, format == Format::csv));
+      tables.push_back(table_of(of_case, report, labels, by_setting));
   }
-  return render(tables, format);
+  return tables;
 }
 
 }  // namespace rayshoot::analysis

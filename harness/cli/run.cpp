@@ -24,7 +24,7 @@ struct Options {
   std::vector<std::string> scenes, techniques, rays, scalars, intersectors;
   std::optional<int> resolution, threads;
   std::optional<std::string> rules;
-  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> seed, graded_rays;
   bool counts_only = false;
   std::string output;
 };
@@ -47,6 +47,7 @@ Suite suite_of(const Options& options) {
   if (options.resolution) suite.resolution = options.resolution;
   if (options.rules) suite.rules = options.rules;
   suite.seed = options.seed.value_or(suite.seed);
+  suite.graded_rays = options.graded_rays.value_or(suite.graded_rays);
   suite.threads = options.threads.value_or(suite.threads);
   suite.counts_only |= options.counts_only;
   return suite;
@@ -93,6 +94,9 @@ void add_run(CLI::App& program, const std::string& command_line, int& status) {
   command->add_option("--resolution", options->resolution, "Resolution of camera rays")
       ->check(CLI::Range(1, 16384));
   command->add_option("--rules", options->rules, "Rules of the ray tree");
+  command->add_option(
+      "--graded", options->graded_rays,
+      "Nearest hits of every ray set that exact arithmetic grades: adds error against run time");
   command->add_option("--seed", options->seed, "Seed of everything random");
   command->add_option("--threads", options->threads, "Threads that trace while timed")
       ->check(CLI::Range(1, 1024));

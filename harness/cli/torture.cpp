@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "analysis/tables/grading.h"
+#include "analysis/tables/comparison.h"
 #include "harness/cli/commands.h"
 #include "harness/cli/long_run.h"
 #include "harness/cli/progress.h"
@@ -44,7 +44,7 @@ int torture_command(const Options& options, const std::string& command_line) {
     report = torture(plan, options.processes, started, progress, interrupted);
   }
   report::write_report(report, output);
-  fmt::print("{}\nReport: {}\n", analysis::render_gradings({report}, analysis::Format::text), output);
+  fmt::print("{}\nReport: {}\n", analysis::render_comparison({report}, analysis::Format::text), output);
   if (!report.run.complete) return kInterrupted;
   return std::any_of(report.gradings.begin(), report.gradings.end(), faulty) ? kCheckFailed : 0;
 }

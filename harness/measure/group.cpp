@@ -119,6 +119,7 @@ class Group {
         if (wanted(*one.choice, rays)) cells.push_back(new_cell(one, rays.set));
     verify(cells, batch, oracle);
     for (Cell<Real>& cell : cells) count_cell(cell, batch);
+    if (suite_.graded_rays > 0) grade(cells, batch);
     if (!suite_.counts_only) time(cells, batch);
     keep_complete(cells);
   }
@@ -135,6 +136,24 @@ class Group {
                         .build_ns = built.build_ns};
     if (!built.engine) fail(cell, built.failure);
     return cell;
+  }
+
+  /// Hold the nearest hits of rays spread over the batch against exact arithmetic.
+  void grade(std::vector<Cell<Real>>& cells, const Batch<Real>& batch) {
+    const std::size_t rays = batch.closest().size(), graded = std::min<std::size_t>(suite_.graded_rays, rays);
+    if (graded == 0) return;
+    announce(fmt::format("grading {} answers exactly", graded));
+    if (!exact_) exact_.emplace(geometry_);
+    for (Cell<Real>& cell : cells) {
+      if (stopped_() || !cell.answers || cell.built->choice->entry->info.needs_recorded_hits) continue;
+      Grades grades;
+      for (std::size_t i = 0; i < graded; ++i) {
+        const std::size_t ray = i * rays / graded;
+        const Hit<Real>& hit = cell.answers->hits[ray];
+        grades.add(exact_->grade(batch.closest()[ray], hit), hit.object != kNoObject);
+      }
+      cell.measurement.errors = record(grades);
+    }
   }
 
   static void fail(Cell<Real>& cell, const std::string& why) {
@@ -228,6 +247,7 @@ class Group {
   const std::function<bool()>& stopped_;
   int all_threads_;
   Geometry<Real> geometry_;
+  std::optional<ExactOracle<Real>> exact_;
 };
 
 }  // namespace

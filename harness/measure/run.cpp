@@ -10,6 +10,7 @@
 #include "harness/measure/group.h"
 #include "harness/verify/scene_tracer.h"
 #include "scenes/core/needs.h"
+#include "scenes/core/stiffness.h"
 #include "scenes/io/load_scene.h"
 
 namespace rayshoot {
@@ -27,7 +28,8 @@ report::Scene record(const LoadedScene& loaded) {
                        .size = loaded.size,
                        .form = loaded.form,
                        .objects = scene.size(),
-                       .hash = scene_hash(scene)};
+                       .hash = scene_hash(scene),
+                       .stiffness = stiffness(scene)};
   for (std::size_t kind = 0; kind < kObjectKindNames.size(); ++kind)
     result.counts[kObjectKindNames[kind]] = scene.counts()[kind];
   if (const Box<double> bounds = scene.bounds(); !bounds.empty()) result.bounds = record(bounds);

@@ -186,6 +186,7 @@ Readers suite_readers(Suite& suite) {
           {"build_seconds", number(suite.build_seconds, 0, any)},
           {"trace_seconds", number(suite.trace_seconds, 0, any)},
           {"check_tests", number(suite.check_tests, 0, any)},
+          {"graded_rays", number(suite.graded_rays, 0, any)},
           {"strict_tests", number(suite.strict_tests, 0, any)}};
 }
 

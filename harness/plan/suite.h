@@ -42,6 +42,8 @@ struct Suite {
   double build_seconds = 1, trace_seconds = 2;
   /// Ray-object tests to spend on checking the rays of a scene by exhaustive search.
   double check_tests = 5e8;
+  /// Nearest hits of every ray set that exact arithmetic grades, technique by technique.
+  std::uint64_t graded_rays = 0;
   /// Ray-object tests to spend on counting the work of a strict optimizer.
   double strict_tests = 1e8;
 };

@@ -95,16 +95,17 @@ void TorturePlan::add_cells(const MadeCase& made, std::size_t setting, const std
       const TechniqueEntry& entry = *technique.entry;
       const bool again = entry.info.own_object_test && intersector != request_.intersectors.front();
       if (again || !(scalar == "float" ? entry.supports<float>() : entry.supports<double>())) continue;
-      cells_.push_back({.stiff_case = made.stiff_case,
-                        .settings = &made.settings,
-                        .setting = setting,
-                        .technique = &technique,
-                        .scalar = scalar,
-                        .intersector = intersector_named(intersector),
-                        .flush_to_zero = request_.flush_to_zero,
-                        .seed = request_.seed,
-                        .rays = rays,
-                        .graded_rays = std::min(rays, request_.graded_rays)});
+      cells_.push_back(
+          {.stiff_case = made.stiff_case,
+           .settings = &made.settings,
+           .setting = setting,
+           .technique = &technique,
+           .scalar = scalar,
+           .intersector = entry.info.own_object_test ? Intersector::fast : intersector_named(intersector),
+           .flush_to_zero = request_.flush_to_zero,
+           .seed = request_.seed,
+           .rays = rays,
+           .graded_rays = std::min(rays, request_.graded_rays)});
     }
 }
 

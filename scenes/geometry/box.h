@@ -21,10 +21,11 @@ struct Box {
   Vec3<Real> extent() const { return hi - lo; }
   Vec3<Real> centre() const { return lo * Real{0.5} + hi * Real{0.5}; }
 
-  /// Surface area S of equation (2); zero for an empty box.
-  Real surface_area() const {
+  /// Surface area S of equation (2), in double precision, whose range holds the squares of all floats; zero for an
+  /// empty box.
+  double surface_area() const {
     if (empty()) return 0;
-    const Vec3<Real> e = extent();
+    const Vec3<double> e(extent());
     return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
   }
 
