@@ -117,6 +117,17 @@ TEST(RayClassBorder, DirectionsLieOnTheirBorder) {
     }
 }
 
+TEST(Threads, RaysMeetVerticesExactlyAndFollowAxes) {
+  const auto settings = settings_of("threads");
+  const std::vector<Vec3d> vertices = vertices_of(*settings[0].scene);
+  for (const Ray<double>& ray : rays_of(setting_of(settings, "rays=to_vertices"), 100))
+    EXPECT_NE(std::find(vertices.begin(), vertices.end(), ray.at(1)), vertices.end());
+  for (const Ray<double>& ray : rays_of(setting_of(settings, "rays=along_axes"), 100)) {
+    EXPECT_EQ(max_abs(ray.direction), 1);
+    EXPECT_EQ(dot(ray.direction, ray.direction), 1);
+  }
+}
+
 TEST(Replay, FirstRaysAreTheReportedOnes) {
   const auto settings = settings_of("replay");
   const auto first = [&](const char* label) { return rays_of(setting_of(settings, label), 1)[0]; };
