@@ -11,7 +11,7 @@
 /// are not exact: they have `kBits` bits, and parameters that agree in half of them are equal.
 namespace rayshoot::rational {
 
-inline constexpr int kBits = 2048;
+inline constexpr int kBits = 6144;
 
 using Vector = Vec3<mpq_class>;
 

@@ -146,10 +146,12 @@ void ExactOracle<Real>::Search::measure(const Ray<Real>& ray, Real t, const Cont
 }
 
 template <class Real>
-Grade ExactOracle<Real>::Search::grade(const Ray<Real>& ray, const Hit<Real>& answer) const {
+Grade ExactOracle<Real>::Search::grade(const Ray<Real>& given, const Hit<Real>& answer) const {
   if (std::isnan(answer.t)) return {AnswerClass::not_a_number};
   const bool answered = answer.object != kNoObject;
-  if (!exact::usable(ray)) return {answered ? AnswerClass::false_hit : AnswerClass::exact};
+  const auto usable = exact::usable(given);
+  if (!usable) return {answered ? AnswerClass::false_hit : AnswerClass::exact};
+  const Ray<Real>& ray = *usable;
   std::optional<Contact> own;
   if (answer.object < contacts_.geometry().size()) own = contacts_.first(answer.object, ray);
   const std::optional<Contact> best = nearest(ray, own);
@@ -172,8 +174,10 @@ Real ExactOracle<Real>::Search::rounded(const Contact& contact, const Ray<Real>&
 }
 
 template <class Real>
-ExactHit<Real> ExactOracle<Real>::Search::nearest(const Ray<Real>& ray) const {
-  if (!exact::usable(ray)) return {};
+ExactHit<Real> ExactOracle<Real>::Search::nearest(const Ray<Real>& given) const {
+  const auto usable = exact::usable(given);
+  if (!usable) return {};
+  const Ray<Real>& ray = *usable;
   std::optional<Contact> best;
   ExactHit<Real> hit;
   hierarchy_.visit(slabs(ray), ray.t_max, [&](std::uint32_t object) {

@@ -15,11 +15,13 @@ struct Contact {
   Bounded<double> t;
 };
 
-/// Whether a ray can hit anything: finite numbers and a direction that is not zero.
+/// A ray that can hit something, with finite ends: nothing where its numbers are not finite, its direction is zero
+/// or its interval empty.
 template <class Real>
-bool usable(const Ray<Real>& ray) {
-  return is_finite(ray.origin) && is_finite(ray.direction) && max_abs(ray.direction) > 0 &&
-         std::abs(ray.t_min) < kMiss<Real> && ray.t_max > ray.t_min;
+std::optional<Ray<Real>> usable(Ray<Real> ray) {
+  ray.t_max = std::min(ray.t_max, std::numeric_limits<Real>::max());
+  const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && std::isfinite(ray.t_min);
+  return finite && max_abs(ray.direction) > 0 && ray.t_max > ray.t_min ? std::optional(ray) : std::nullopt;
 }
 
 template <class Number, class Real>
@@ -39,7 +41,8 @@ std::vector<Vec3<Number>> numbers(std::span<const Vec3<Real>> vertices) {
 }
 
 /// The exact ray-object test of a geometry: decided in double precision where the error bound allows, else in
-/// exact arithmetic. All rays must be `usable`. Borders belong to objects; a ray in the plane of a triangle or
+/// exact arithmetic. All rays must be
+/// `usable`. Borders belong to objects; a ray in the plane of a triangle or
 /// polygon, or along a line in the surface of a cone, misses.
 template <class Real>
 class ExactContacts {

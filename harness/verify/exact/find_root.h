@@ -16,8 +16,7 @@ struct Found {
 /// Whether a root lies in (t_min, t_max] of a ray: 1, 0 or `kUnknown`.
 template <class Number, class Real>
 int within(const Root<Number>& root, const Ray<Real>& ray) {
-  const int after_start = compare(root, ray.t_min);
-  const int after_end = ray.t_max < kMiss<Real> ? compare(root, ray.t_max) : -1;
+  const int after_start = compare(root, ray.t_min), after_end = compare(root, ray.t_max);
   if (after_start == -1 || after_start == 0 || after_end == 1) return 0;
   return after_start == kUnknown || after_end == kUnknown ? kUnknown : 1;
 }
@@ -122,9 +121,6 @@ struct PolygonWalk {
     } else if (seen_a.v == 0) {
       unknown |= seen_a.u == kUnknown || seen_b.u == kUnknown;
       on_border |= seen_a.u == 0 || (seen_b.v == 0 && seen_a.u * seen_b.u <= 0);
-    } else if (seen_b.v == 0) {
-      unknown |= seen_b.u == kUnknown;
-      on_border |= seen_b.u == 0;
     }
   }
 

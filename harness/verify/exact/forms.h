@@ -54,10 +54,6 @@ struct Quadratic {
   Number discriminant;
 
   Number at(const Number& t) const { return (a * t + half_b + half_b) * t + c; }
-  /// f(numerator / denominator) denominator^2.
-  Number at(const Number& numerator, const Number& denominator) const {
-    return (a * numerator + (half_b + half_b) * denominator) * numerator + c * denominator * denominator;
-  }
   /// One of the two roots where `a_sign`, the sign of a, is not zero.
   Root<Number> root(int a_sign, int side) const {
     if (a_sign < 0) return {half_b, discriminant, -a, side};
@@ -103,10 +99,6 @@ struct ConeForms {
     const Number c = height_at_apex * dot(aside, aside) - radius * radius;
     quadratic = {a, half_b, c, half_b * half_b - a * c};
   }
-
-  /// Zero where the line passes the circle of the base or the apex.
-  Number at_base_circle() const { return quadratic.at(-height_at_origin, height_slope); }
-  Number at_apex_circle() const { return quadratic.at(height_at_apex - height_at_origin, height_slope); }
 };
 
 /// Newell's area vector: the sum over edges of previous x next, seen from the first vertex.

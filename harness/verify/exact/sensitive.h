@@ -77,7 +77,7 @@ class Inputs {
 
 /// The exact sign of a form where half an ulp of the inputs cannot change it, else `kUnknown`.
 inline int firm_sign(const Dyadic& exact, const Sensitive& sensitive) {
-  return std::abs(exact.rounded()) <= sensitive.reach() ? kUnknown : sign(exact);
+  return std::abs(exact.rounded()) > sensitive.reach() ? sign(exact) : kUnknown;
 }
 
 }  // namespace rayshoot::exact
