@@ -190,7 +190,7 @@ struct Grading {
   Errors errors;
   /// Misses where the property forbids them, and hits where it does; answers that differ from the base's.
   std::uint64_t leaks = 0, forbidden_hits = 0, changed = 0;
-  /// Rays for which the any-hit query, or tracing with more threads, says something else.
+  /// Graded rays for which the any-hit query, or tracing with more threads, says something else.
   std::uint64_t any_differs = 0, threads_differ = 0;
   /// Work of the first rays, and the most steps that one of them took.
   std::optional<Work> work;

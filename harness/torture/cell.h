@@ -17,7 +17,7 @@ struct TortureCell {
   Intersector intersector = Intersector::watertight;
   bool flush_to_zero = false;
   std::uint64_t seed = 1;
-  /// Rays to trace, and how many of the first are graded by the exact oracle and counted.
+  /// Rays to trace, and how many of the first are graded by the exact oracle, asked for any hit, and counted.
   std::uint64_t rays = 0, graded_rays = 0;
 
   const StiffSetting& of_setting() const { return (*settings)[setting]; }

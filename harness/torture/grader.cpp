@@ -84,10 +84,10 @@ class Grader {
     const std::vector<Hit<Real>> hits = stressed_.closest(rays);
     Tally next = tally_;
     hold_to_promise(rays, hits, first, next);
-    hold_to_itself(rays, hits, first, next);
     if (first < cell_.graded_rays) {
       const std::uint64_t graded = std::min(count, cell_.graded_rays - first);
-      hold_to_oracle(std::span(rays).first(graded), std::span<const Hit<Real>>(hits).first(graded), next);
+      hold_to_itself(std::span(rays).first(graded), std::span(hits).first(graded), first, next);
+      hold_to_oracle(std::span(rays).first(graded), std::span(hits).first(graded), next);
       count_work(std::span(rays).first(graded), next);
     }
     next.rays = first + count;
@@ -113,8 +113,8 @@ class Grader {
   }
 
   /// The any-hit query says whether there is a nearest hit; more threads say the same.
-  void hold_to_itself(const std::vector<Ray<Real>>& rays, const std::vector<Hit<Real>>& hits,
-                      std::uint64_t first, Tally& tally) {
+  void hold_to_itself(std::span<const Ray<Real>> rays, std::span<const Hit<Real>> hits, std::uint64_t first,
+                      Tally& tally) {
     const std::vector<std::uint8_t> blocked = stressed_.any(rays);
     for (std::size_t i = 0; i < hits.size(); ++i)
       tally.any_differs += (blocked[i] != 0) != (hits[i].object != kNoObject);

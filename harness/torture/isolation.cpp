@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <thread>
@@ -19,8 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A process that gets no further for so long has lost its way: after building, and while it builds.
-constexpr std::chrono::seconds kPatience{20}, kBuildingPatience{300};
+/// The patience with a process that builds.
+constexpr std::chrono::seconds kBuildingPatience{300};
 /// Rays that end a process before a cell is given up.
 constexpr std::uint64_t kMostCrashes = 20;
 
@@ -83,9 +82,9 @@ struct IsolatedCells::Running {
     _exit(0);
   }
 
-  void kill_if_stuck() {
+  void kill_if_stuck(std::chrono::milliseconds patience) {
     if (tally->rays != seen_rays) seen_rays = tally->rays, seen_at = Clock::now();
-    if (killed || Clock::now() - seen_at < (tally->built ? kPatience : kBuildingPatience)) return;
+    if (killed || Clock::now() - seen_at < (tally->built ? patience : kBuildingPatience)) return;
     kill(process, SIGKILL);
     killed = true;
   }
@@ -109,8 +108,8 @@ struct IsolatedCells::Running {
   }
 };
 
-IsolatedCells::IsolatedCells(int processes, Finished finished)
-    : processes_(static_cast<std::size_t>(processes)), finished_(std::move(finished)) {}
+IsolatedCells::IsolatedCells(int processes, Finished finished, std::chrono::milliseconds patience)
+    : processes_(static_cast<std::size_t>(processes)), patience_(patience), finished_(std::move(finished)) {}
 
 IsolatedCells::~IsolatedCells() = default;
 
@@ -129,7 +128,7 @@ void IsolatedCells::wait_for_one() {
     Running& running = *running_[i];
     int status = 0;
     if (waitpid(running.process, &status, WNOHANG) == 0) {
-      running.kill_if_stuck();
+      running.kill_if_stuck(patience_);
     } else if (running.done(status)) {
       finished_(running.cell, *running.tally);
       running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "harness/torture/cell.h"
 #include "harness/torture/tally.h"
 
@@ -11,7 +13,9 @@ class IsolatedCells {
   /// Called with a cell and its tally when it is done.
   using Finished = std::function<void(const TortureCell&, const Tally&)>;
 
-  IsolatedCells(int processes, Finished finished);
+  /// A process that gets no further for `patience`, once it has built, has lost its way.
+  IsolatedCells(int processes, Finished finished,
+                std::chrono::milliseconds patience = std::chrono::seconds(20));
   ~IsolatedCells();
   IsolatedCells(const IsolatedCells&) = delete;
 
@@ -25,6 +29,7 @@ class IsolatedCells {
   void wait_for_one();
 
   std::size_t processes_;
+  std::chrono::milliseconds patience_;
   Finished finished_;
   std::vector<std::unique_ptr<Running>> running_;
 };
