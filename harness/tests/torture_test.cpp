@@ -1,14 +1,15 @@
 // The numerical suite in its short form, and the machinery that runs it.
 #include "harness/torture/torture.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <atomic>
 #include <set>
 
+#include "altered_technique.h"
 #include "harness/measure/environment.h"
 #include "harness/torture/isolation.h"
-#include "altered_technique.h"
 
 namespace rayshoot {
 namespace {
@@ -75,8 +76,7 @@ TEST(Torture, AnswersOfAllOtherCasesAreExact) {
   const std::set<std::string> beyond{"closed_vertex", "closed_edge", "fan", "denormal", "huge", "garbage"};
   for (const StiffCase* one : stiff_cases())
     if (!beyond.contains(one->id)) cases.push_back(one->id);
-  expect_no_fault(
-      gradings({.cases = cases, .intersectors = {"watertight"}, .rays = 300, .graded_rays = 300}));
+  expect_no_fault(gradings({.cases = cases, .intersectors = {"watertight"}, .rays = 100}));
 }
 
 TEST(Torture, GarbageCrashesNothingAndHidesNoGoodObject) {
@@ -115,7 +115,8 @@ TEST(Torture, DistancesAreRightToAFewUlps) {
 class Isolation : public ::testing::Test {
  protected:
   Tally run(const TechniqueEntry& entry, std::uint64_t rays) {
-    const StiffCase& closed = *stiff_cases()[2];
+    const StiffCase& closed = **std::find_if(stiff_cases().begin(), stiff_cases().end(),
+                                             [](const StiffCase* one) { return one->id == "closed_vertex"; });
     const std::vector<StiffSetting> settings = closed.settings(1, 1);
     const TechniqueChoice choice{&entry, Arguments(entry.info.parameters, {}, entry.info.id), entry.info.id};
     const TortureCell cell{&closed, &settings, 0,    &choice, "float", Intersector::watertight,
@@ -174,8 +175,8 @@ TEST_F(Isolation, FindsTheRaysThatEndTheProcessAndGoesOnBehindThem) {
 }
 
 TEST_F(Isolation, GivesUpARayThatNeverEnds) {
-  const Tally tally = run(altered(Hang()), 150);
-  EXPECT_EQ(tally.rays, 150u);
+  const Tally tally = run(altered(Hang()), 200);
+  EXPECT_EQ(tally.rays, 200u);
   EXPECT_GT(tally.grades.answers[static_cast<std::size_t>(AnswerClass::over_steps)], 0u);
 }
 

@@ -91,6 +91,7 @@ class Grader {
       count_work(std::span(rays).first(graded), next);
     }
     next.rays = first + count;
+    next.pulse = tally_.pulse + 1;
     tally_ = next;
   }
 
@@ -128,8 +129,10 @@ class Grader {
 
   void hold_to_oracle(std::span<const Ray<Real>> rays, std::span<const Hit<Real>> hits, Tally& tally) {
     if (!oracle_) oracle_.emplace(stressed_.geometry);
-    for (std::size_t i = 0; i < rays.size(); ++i)
+    for (std::size_t i = 0; i < rays.size(); ++i) {
       tally.grades.add(oracle_->grade(rays[i], hits[i]), hits[i].object != kNoObject);
+      ++tally_.pulse;
+    }
   }
 
   void count_work(std::span<const Ray<Real>> rays, Tally& tally) {

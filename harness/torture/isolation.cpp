@@ -44,7 +44,7 @@ struct IsolatedCells::Running {
   pid_t process = -1;
   /// Rays up to this number are traced one at a time, to find the one that ended a process.
   std::uint64_t one_by_one_until = 0;
-  std::uint64_t seen_rays = 0;
+  std::uint64_t seen_pulse = 0;
   Clock::time_point seen_at;
   bool killed = false;
 
@@ -63,7 +63,7 @@ struct IsolatedCells::Running {
 
   void launch() {
     tally->built = false, killed = false;
-    seen_rays = tally->rays, seen_at = Clock::now();
+    seen_pulse = tally->pulse, seen_at = Clock::now();
     process = fork();
     if (process < 0) throw std::bad_alloc();
     if (process == 0) work();
@@ -83,7 +83,7 @@ struct IsolatedCells::Running {
   }
 
   void kill_if_stuck(std::chrono::milliseconds patience) {
-    if (tally->rays != seen_rays) seen_rays = tally->rays, seen_at = Clock::now();
+    if (tally->pulse != seen_pulse) seen_pulse = tally->pulse, seen_at = Clock::now();
     if (killed || Clock::now() - seen_at < (tally->built ? patience : kBuildingPatience)) return;
     kill(process, SIGKILL);
     killed = true;

@@ -13,6 +13,8 @@ namespace rayshoot {
 struct Tally {
   /// Rays answered and counted: the next to be traced.
   std::uint64_t rays = 0;
+  /// Grows as long as the process gets on, also within a batch.
+  std::uint64_t pulse = 0;
   /// Whether the structures stand.
   bool built = false;
   std::uint64_t objects = 0, set_aside = 0;
