@@ -1,10 +1,10 @@
 // closed_edge, STIFF 2: rays from inside a closed mesh to its edges
 //
-// Construction  The solids of closed_vertex. Even rays aim from the lattice at the midpoint of an edge, which is a
-//               float as their vertices are even multiples of its last place, and meet it exactly; odd rays aim at a
-//               random point of an edge, rounded, from anywhere inside.
-// Property      Every ray hits, and crosses the surface an odd number of times, one crossing for an edge and the two
-//               triangles beside it.
+// Construction  The solids of closed_vertex. Even rays aim from the lattice at the midpoint of an edge, which
+//               is a float as their vertices are even multiples of its last place, and meet it exactly; odd
+//               rays aim at a random point of an edge, rounded, from anywhere inside.
+// Property      Every ray hits, and crosses the surface an odd number of times, one crossing for an edge and
+//               the two triangles beside it.
 // Metric        Leaks per 10^9 rays; errors of parity.
 // Size          As closed_vertex.
 // Anchor        Edges are the easier half: tests that lose a tenth of the vertices lose few edges or none.

@@ -1,13 +1,16 @@
 // closed_vertex, STIFF 1: rays from inside a closed mesh to its vertices
 //
-// Construction  Icospheres, a tetrahedron, a ring and two random solids made by subdivision. Every ray starts inside
-//               and aims at a vertex that is the same float in both precisions: even rays from a lattice on which the
-//               difference is a float too, so that they meet the vertex exactly; odd rays from anywhere, rounded.
-// Property      Every ray hits. The mesh is closed, so a miss is a leak by topology alone; no oracle is needed.
+// Construction  Icospheres, a tetrahedron, a ring and two random solids made by subdivision. Every ray starts
+//               inside and aims at a vertex that is the same float in both precisions: even rays from a
+//               lattice on which the difference is a float too, so that they meet the vertex exactly; odd
+//               rays from anywhere, rounded. (No part of the SPD teapot is closed; the ring stands for shapes
+//               that no inner point sees whole.)
+// Property      Every ray hits. The mesh is closed, so a miss is a leak by topology alone; no oracle is
+//               needed.
 // Metric        Leaks per 10^9 rays with their 95 % upper bound, which is 3/n after n rays without a leak.
 // Size          Icospheres up to level 2 + size, at most 8.
-// Anchor        Of 10^6 such rays at a unit icosphere Embree loses 129,603, Embree ROBUST 3,603, madmann91's bvh 15,610
-//               and its robust form 8,850; a watertight test after Woop et al. none of 20,000.
+// Anchor        Of 10^6 such rays at a unit icosphere Embree loses 129,603, Embree ROBUST 3,603, madmann91's
+//               bvh 15,610 and its robust form 8,850; a watertight test after Woop et al. none of 20,000.
 
 #include "scenes/stiff/parts/solids.h"
 #include "scenes/stiff/stiff_case.h"

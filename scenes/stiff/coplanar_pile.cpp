@@ -1,12 +1,12 @@
 // coplanar_pile, STIFF 13: coincident copies
 //
-// Construction  One triangle, 64 others scattered about it, and then n - 1 more copies of the first. No split separates
-//               the copies; the one with the lowest number must win every tie.
+// Construction  One triangle, 64 others scattered about it, and then n - 1 more copies of the first. No split
+//               separates the copies; the one with the lowest number must win every tie.
 // Property      The same objects and distances as with a single copy.
 // Metric        Depth, references, build time and memory against n; answers by thread count.
 // Size          n up to 1000 in the short form, 10,000 from size 2, 100,000 from size 4.
-// Anchor        Embree builds 1,000 to 100,000 coincident copies in its overlapping_primitives test, and shoots no ray
-//               at them.
+// Anchor        Embree builds 1,000 to 100,000 coincident copies in its overlapping_primitives test, and
+//               shoots no ray at them.
 
 #include <fmt/format.h>
 

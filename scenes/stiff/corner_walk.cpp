@@ -1,14 +1,15 @@
 // corner_walk, STIFF 16: through the corners and along the edges of cells
 //
-// Construction  The scene's box is a cube of 8 x 8 x 8 unit cells. Each triangle touches one cell corner with its vertex
-//               and lies in one cell beside it. Rays pass exactly through corners: along diagonals of cells, of their
-//               faces, along edges, and in steps of (1, 2, 1); as a base, beside the corners. A 3D-DDA that takes two
-//               axes at once, or one too early, skips the cell that holds the answer.
+// Construction  The scene's box is a cube of 8 x 8 x 8 unit cells. Each triangle touches one cell corner with
+//               its vertex and lies in one cell beside it. Rays pass exactly through corners: along diagonals
+//               of cells, of their faces, along edges, and in steps of (1, 2, 1); as a base, beside the
+//               corners. A 3D-DDA that takes two axes at once, or one too early, skips the cell that holds
+//               the answer.
 // Property      Graded by the oracle.
 // Metric        Misses; ratio of steps to the base.
 // Size          400 size^2 triangles, at most 40,000.
-// Anchor        None published; walls of cells are met exactly only where the structure's box is not padded, or is
-//               symmetric about the scene's.
+// Anchor        None published; walls of cells are met exactly only where the structure's box is not padded,
+//               or is symmetric about the scene's.
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 // csg_stack, STIFF 25: nested solids with coincident walls
 //
-// Construction  n boxes, each inside the next, with one wall in common; or n spheres, each inside the next, that touch
-//               in one point. Rays start in the innermost, every other one towards the common wall or point; or outside
-//               of all.
-// Property      From inside every ray hits, and crosses each solid's surface once: n crossings, of which those at the
-//               common wall coincide. From outside the number of crossings is even. An interval algebra of constructive
-//               solid geometry rests on that.
+// Construction  n boxes, each inside the next, with one wall in common; or n spheres, each inside the next,
+//               that touch in one point. Rays start in the innermost, every other one towards the common wall
+//               or point; or outside of all.
+// Property      From inside every ray hits, and crosses each solid's surface once: n crossings, of which
+//               those at the common wall coincide. From outside the number of crossings is even. An interval
+//               algebra of constructive solid geometry rests on that.
 // Metric        Leaks; errors of parity over all hits of a ray.
 // Size          n up to 16 in the short form, times 4 with every size, at most 1024.
 // Anchor        None with an exact count.

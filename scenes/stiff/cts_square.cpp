@@ -1,10 +1,10 @@
 // cts_square, STIFF 4: the unit square of the Vulkan conformance tests
 //
-// Construction  The recipe of the watertightness tests of the Vulkan CTS: a unit square whose triangles are cut again
-//               and again at a random point (factors 0.01 to 0.99) of random depth, seen by axis-parallel rays through
-//               the centres of 256 x 256 pixels; here every fourth ray goes through a vertex. A cut is taken only where
-//               its three triangles have a positive area by exact arithmetic: the original lets rounding fold some (VK-
-//               GL-CTS #446).
+// Construction  The recipe of the watertightness tests of the Vulkan CTS: a unit square whose triangles are
+//               cut again and again at a random point (factors 0.01 to 0.99) of random depth, seen by
+//               axis-parallel rays through the centres of 256 x 256 pixels; here every fourth ray goes
+//               through a vertex. A cut is taken only where its three triangles have a positive area by exact
+//               arithmetic: the original lets rounding fold some (VK- GL-CTS #446).
 // Property      Every ray hits; which triangles own the point is decided exactly.
 // Metric        Misses per 10^9 rays; rays that hit two triangles off their common edge.
 // Size          Up to 1024 triangles, times 4 with every size, at most 65536.

@@ -1,8 +1,8 @@
 // degenerate, STIFF 22: scenes that hardly exist
 //
-// Construction  Scenes of so few objects that structures have nothing to split; scenes of nothing but objects without
-//               area, in a line or in a point; good triangles among such and among duplicates of themselves; a scene in
-//               one plane, whose box has no volume; rays without a direction.
+// Construction  Scenes of so few objects that structures have nothing to split; scenes of nothing but objects
+//               without area, in a line or in a point; good triangles among such and among duplicates of
+//               themselves; a scene in one plane, whose box has no volume; rays without a direction.
 // Property      Scenes without area and rays without direction: no hit. The others: graded by the oracle.
 // Metric        Pass or fail; best run under the address and undefined-behaviour sanitizers.
 // Size          The same settings at every size.

@@ -1,16 +1,16 @@
 // denormal, STIFF 19: numbers below the smallest normal float
 //
-// Construction  Objects of every kind and rays on a lattice of 2^-20, scaled down so that the lattice is 2^-149, the
-//               smallest float: coordinates alone, directions alone, or both. At 2^-124 some numbers are denormal and
-//               some are not.
-// Property      Where distances remain floats (coordinates and directions scaled alike, or directions alone): the same
-//               object at the same or the scaled distance. With denormal coordinates alone distances are denormal too
-//               and round: graded by the oracle.
-// Metric        Rate of changed answers, in the IEEE mode and where the processor flushes denormals to zero (FTZ and
-//               DAZ, which are the harness's to set).
+// Construction  Objects of every kind and rays on a lattice of 2^-20, scaled down so that the lattice is
+//               2^-149, the smallest float: coordinates alone, directions alone, or both. At 2^-124 some
+//               numbers are denormal and some are not.
+// Property      Where distances remain floats (coordinates and directions scaled alike, or directions alone):
+//               the same object at the same or the scaled distance. With denormal coordinates alone distances
+//               are denormal too and round: graded by the oracle.
+// Metric        Rate of changed answers, in the IEEE mode and where the processor flushes denormals to zero
+//               (FTZ and DAZ, which are the harness's to set).
 // Size          The same settings at every size.
-// Anchor        Embree's verify runs with FTZ and DAZ set, and thus never tests denormals; at 1e-12 that mode loses all
-//               rays whose directions are as small.
+// Anchor        Embree's verify runs with FTZ and DAZ set, and thus never tests denormals; at 1e-12 that mode
+//               loses all rays whose directions are as small.
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // dir_scale, STIFF 9: directions of any length
 //
-// Construction  Objects of every kind; rays between points of a lattice, half of them to vertices, with directions
-//               multiplied by 2^k.
+// Construction  Objects of every kind; rays between points of a lattice, half of them to vertices, with
+//               directions multiplied by 2^k.
 // Property      The same object at 2^-k times the distance, exactly.
 // Metric        Rate of changed answers as a function of k.
 // Size          Seven lengths in the short form, steps of 5 from size 2.
-// Anchor        Embree raises components of directions under 1e-18 to that; rays to vertices with directions of length
-//               1e-18 or 1e17 miss all of an icosphere in Embree.
+// Anchor        Embree raises components of directions under 1e-18 to that; rays to vertices with directions
+//               of length 1e-18 or 1e17 miss all of an icosphere in Embree.
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // fan, STIFF 3: many triangles around one vertex
 //
-// Construction  k triangles from a hub to a closed rim, like an umbrella; rays from above to the hub, even ones exactly,
-//               odd ones rounded.
+// Construction  k triangles from a hub to a closed rim, like an umbrella; rays from above to the hub, even
+//               ones exactly, odd ones rounded.
 // Property      Every ray hits: whichever side of the hub it passes, there is a triangle.
 // Metric        Leaks as a function of k.
 // Size          k up to 512 in the short form, to 4096 from size 2.

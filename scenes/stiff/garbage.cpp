@@ -1,14 +1,14 @@
 // garbage, STIFF 21: random bits among good objects and rays
 //
-// Construction  An icosphere of 320 triangles among objects whose numbers are random bits read as floats: not-a-numbers,
-//               infinities, denormals, anything; one garbage triangle in four has good corners but one. Rays are good,
-//               or random finite bits, or hold one number that is not finite.
-// Property      Good rays and finite ones: graded by the oracle, for which objects that are not finite do not exist. A
-//               ray that is not finite has no points, and meets nothing.
+// Construction  An icosphere of 320 triangles among objects whose numbers are random bits read as floats:
+//               not-a-numbers, infinities, denormals, anything; one garbage triangle in four has good corners
+//               but one. Rays are good, or random finite bits, or hold one number that is not finite.
+// Property      Good rays and finite ones: graded by the oracle, for which objects that are not finite do not
+//               exist. A ray that is not finite has no points, and meets nothing.
 // Metric        False misses of good objects, false hits; time and steps, which must stay bounded.
 // Size          200 size^2 objects of garbage, at most 200,000.
-// Anchor        Embree's build_garbage_geom builds such scenes and shoots no ray; its nan_test and inf_test measure time
-//               alone, and only where a compile option is set, which Debian's is not.
+// Anchor        Embree's build_garbage_geom builds such scenes and shoots no ray; its nan_test and inf_test
+//               measure time alone, and only where a compile option is set, which Debian's is not.
 
 #include <array>
 

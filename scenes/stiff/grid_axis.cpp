@@ -1,14 +1,15 @@
 // grid_axis, STIFF 5: axis-parallel rays along an integer grid
 //
-// Construction  A mesh over the integer grid with heights 0 to 3. Rays along z through grid points, edges and diagonals,
-//               and along x through grid lines at whole and half heights; the base setting sends the same rays along z
-//               beside all lines.
-// Property      The exact owner. Rays along x at whole heights run in the plane of level triangles, which they miss.
-// Metric        Misses, and the ratio of steps and tests to those of the base: where it is large, rays on a line make a
-//               technique visit everything beside it.
+// Construction  A mesh over the integer grid with heights 0 to 3. Rays along z through grid points, edges and
+//               diagonals, and along x through grid lines at whole and half heights; the base setting sends
+//               the same rays along z beside all lines.
+// Property      The exact owner. Rays along x at whole heights run in the plane of level triangles, which
+//               they miss.
+// Metric        Misses, and the ratio of steps and tests to those of the base: where it is large, rays on a
+//               line make a technique visit everything beside it.
 // Size          24 x 24 cells at size 1, times size, at most 240.
-// Anchor        tinybvh lost rays through a mesh quantised to the integer grid (#168); in madmann91's bvh axis-parallel
-//               rays over a grid visited nearly all leaves (#60).
+// Anchor        tinybvh lost rays through a mesh quantised to the integer grid (#168); in madmann91's bvh
+//               axis-parallel rays over a grid visited nearly all leaves (#60).
 
 #include <fmt/format.h>
 

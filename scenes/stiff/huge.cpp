@@ -1,8 +1,8 @@
 // huge, STIFF 20: coordinates up to the largest float
 //
-// Construction  Objects of every kind of about unit size, inside a closed box of twelve triangles of half width 2^e; e =
-//               126 is a quarter of the largest float and e = 88 that over 2^40. Rays start among the objects or far
-//               out.
+// Construction  Objects of every kind of about unit size, inside a closed box of twelve triangles of half
+//               width 2^e; e = 126 is a quarter of the largest float and e = 88 that over 2^40. Rays start
+//               among the objects or far out.
 // Property      Graded by the oracle, for what has not been set aside as out of range.
 // Metric        Not-a-numbers and refusals; the largest e with no wrong answer and no refusal.
 // Size          Six exponents in the short form, steps of 6 from size 2.

@@ -1,11 +1,12 @@
 // in_plane, STIFF 15: rays inside of faces, walls and split planes
 //
-// Construction  Boxes of twelve triangles fill random cells of a grid of 4 x 4 x 4, so that their faces lie on the walls
-//               of any grid or octree of a power of two, and on planes of median splits. Rays run in the plane of faces,
-//               along edges, in the faces of the scene's box, and, as a base, off all planes.
+// Construction  Boxes of twelve triangles fill random cells of a grid of 4 x 4 x 4, so that their faces lie
+//               on the walls of any grid or octree of a power of two, and on planes of median splits. Rays
+//               run in the plane of faces, along edges, in the faces of the scene's box, and, as a base, off
+//               all planes.
 // Property      Graded by the oracle: a ray in the plane of a triangle misses it and hits what stands across.
-// Metric        False hits and misses; the ratio of steps to the base, since a traversal on a wall may walk both sides,
-//               or for ever.
+// Metric        False hits and misses; the ratio of steps to the base, since a traversal on a wall may walk
+//               both sides, or for ever.
 // Size          4 x 4 x 4 cells times size each way, at most 16.
 // Anchor        None: conformance tests leave rays in a triangle's plane open.
 

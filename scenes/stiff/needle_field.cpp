@@ -1,10 +1,11 @@
 // needle_field, STIFF 12: parallel needles across the scene
 //
-// Construction  n triangles as long as the scene and 2^-12 of that wide, parallel to an axis or to the diagonal of the
-//               scene; in the base setting as many triangles are compact, of about the same area.
+// Construction  n triangles as long as the scene and 2^-12 of that wide, parallel to an axis or to the
+//               diagonal of the scene; in the base setting as many triangles are compact, of about the same
+//               area.
 // Property      Graded by the oracle.
-// Metric        References per object, memory and work, as ratios to the base: along the diagonal every cell's box holds
-//               parts of needles that boxes of objects cannot tell apart.
+// Metric        References per object, memory and work, as ratios to the base: along the diagonal every
+//               cell's box holds parts of needles that boxes of objects cannot tell apart.
 // Size          600 size^2 needles, at most 100,000.
 // Anchor        None: the suites known count no references.
 

@@ -1,15 +1,15 @@
 // on_surface, STIFF 17: rays that start on a surface
 //
-// Construction  A cube, an octahedron and a sphere, with points whose floats are exactly on them: lattice points of the
-//               flat faces, Pythagorean quadruples on the sphere. Origins stand there or some ulps outwards, rays run
-//               outwards or inwards. Another setting starts on random points of oblique triangles as a hit reports them:
-//               rounded, hence off the plane by up to an ulp.
-// Property      Graded by the oracle, by which a ray begins behind t = 0: the surface it starts on is not hit again, nor
-//               is the other side lost.
+// Construction  A cube, an octahedron and a sphere, with points whose floats are exactly on them: lattice
+//               points of the flat faces, Pythagorean quadruples on the sphere. Origins stand there or some
+//               ulps outwards, rays run outwards or inwards. Another setting starts on random points of
+//               oblique triangles as a hit reports them: rounded, hence off the plane by up to an ulp.
+// Property      Graded by the oracle, by which a ray begins behind t = 0: the surface it starts on is not hit
+//               again, nor is the other side lost.
 // Metric        Self-hits; the smallest offset without any.
 // Size          Offsets of 0, 1 and 64 ulps in the short form, powers of two between from size 2.
-// Anchor        Renderers offset by 1 to 8 ulps (mitsuba3 #1962); of 10^6 rays spawned with its error bounds pbrt-v4
-//               allows none to hit again.
+// Anchor        Renderers offset by 1 to 8 ulps (mitsuba3 #1962); of 10^6 rays spawned with its error bounds
+//               pbrt-v4 allows none to hit again.
 
 #include <fmt/format.h>
 

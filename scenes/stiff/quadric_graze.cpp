@@ -1,10 +1,11 @@
 // quadric_graze, STIFF 24: tangents of spheres, cylinders and cones
 //
-// Construction  Spheres and cylinders of radius 5 through the integer point (3, 4, 0), with tangents along (4, -3, w),
-//               and cones whose generator through that point is (3, 4, -5); 27 copies of each 32 apart. Origins are 2^k
-//               directions before the point, all integers: the ray touches exactly, and misses or cuts when its origin
-//               is moved by a float. b^2 - ac loses all digits there.
-// Property      Graded by the oracle, which compares the discriminant with 0 exactly. A ray that touches hits.
+// Construction  Spheres and cylinders of radius 5 through the integer point (3, 4, 0), with tangents along
+//               (4, -3, w), and cones whose generator through that point is (3, 4, -5); 27 copies of each 32
+//               apart. Origins are 2^k directions before the point, all integers: the ray touches exactly,
+//               and misses or cuts when its origin is moved by a float. b^2 - ac loses all digits there.
+// Property      Graded by the oracle, which compares the discriminant with 0 exactly. A ray that touches
+//               hits.
 // Metric        Rate of wrong answers by class, error of t in ulps, as functions of distance over radius.
 // Size          k of 0, 8, 18 in the short form, all even k from size 2.
 // Anchor        None: no suite known has curved objects with an exact oracle.

@@ -1,11 +1,11 @@
 // ray_class_border, STIFF 26: directions on borders of ray classes
 //
-// Construction  Techniques that classify rays (5D classification, light buffers, beams) cut the cube of directions into
-//               cells. Directions here lie in planes between its faces (|x| = |y|), on lines u = m / 16 within a face,
-//               in its corners and along axes; the base has directions beside them. Rays run through vertices, from
-//               lattice points two directions before.
-// Property      Graded by the oracle: what a ray hits must be among the candidates of its class, whichever of two
-//               classes takes a ray on the border.
+// Construction  Techniques that classify rays (5D classification, light buffers, beams) cut the cube of
+//               directions into cells. Directions here lie in planes between its faces (|x| = |y|), on lines
+//               u = m / 16 within a face, in its corners and along axes; the base has directions beside them.
+//               Rays run through vertices, from lattice points two directions before.
+// Property      Graded by the oracle: what a ray hits must be among the candidates of its class, whichever of
+//               two classes takes a ray on the border.
 // Metric        Candidate sets without the hit, which must be none: the safety half of the efficiency M.
 // Size          40 size^2 objects of each kind, at most 4000.
 // Anchor        None.

@@ -1,8 +1,8 @@
 // ray_ends, STIFF 18: rays that begin or end at a hit
 //
-// Construction  Level plates over one another; rays fall onto them with directions that are powers of two, so that the
-//               distance of every plate is a float. The end or the beginning of the ray is that of the first plate, or
-//               the float beside it.
+// Construction  Level plates over one another; rays fall onto them with directions that are powers of two, so
+//               that the distance of every plate is a float. The end or the beginning of the ray is that of
+//               the first plate, or the float beside it.
 // Property      A hit at t_max counts, one at t_min does not; an empty or a reversed interval meets nothing.
 // Metric        Violations.
 // Size          The same settings at every size.

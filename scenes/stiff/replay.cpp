@@ -1,10 +1,10 @@
 // replay, STIFF 28: cases that broke other libraries
 //
-// Construction  Ray 0 is the one reported, where its bits are public: VK-GL-CTS #446, the triangle of pbrt-v4's test
-//               BadCases, tinybvh #283, madmann91 bvh #20. Further rays of these settings are neighbours of it. Labels
-//               that begin with `like` are in the manner of a report whose bits are not public or belong to a large
-//               mesh: embree #174, #181, #387, #423, libigl #2232, #2270, madmann91 bvh #51; every ray of theirs is
-//               drawn from the situation described.
+// Construction  Ray 0 is the one reported, where its bits are public: VK-GL-CTS #446, the triangle of
+//               pbrt-v4's test BadCases, tinybvh #283, madmann91 bvh #20. Further rays of these settings are
+//               neighbours of it. Labels that begin with `like` are in the manner of a report whose bits are
+//               not public or belong to a large mesh: embree #174, #181, #387, #423, libigl #2232, #2270,
+//               madmann91 bvh #51; every ray of theirs is drawn from the situation described.
 // Property      A hit on shared edges and vertices; otherwise graded by the oracle.
 // Metric        Pass or fail for each setting.
 // Size          The same settings at every size.

@@ -1,11 +1,13 @@
 // scale_decimal, STIFF 8: a scene scaled by 10^k
 //
-// Construction  Triangles, spheres and cones scaled by 10^k and rounded to floats; rays, half of them to vertices,
-//               likewise. Unlike powers of two these scales change the bits, so there is no base to compare with.
+// Construction  Triangles, spheres and cones scaled by 10^k and rounded to floats; rays, half of them to
+//               vertices, likewise. Unlike powers of two these scales change the bits, so there is no base to
+//               compare with.
 // Property      Graded by the oracle, setting by setting.
 // Metric        Rate of wrong answers by class.
 // Size          k in steps of 4 in the short form, of 1 from size 2.
-// Anchor        A triangle test that rejects determinants under 1e-6 loses 84 % of its hits at 1e-3 and all at 1e-12.
+// Anchor        A triangle test that rejects determinants under 1e-6 loses 84 % of its hits at 1e-3 and all
+//               at 1e-12.
 
 #include <fmt/format.h>
 

@@ -1,14 +1,14 @@
 // scale_dyadic, STIFF 7: a scene scaled by 2^k
 //
-// Construction  Objects of every kind inside the cube of half width 0.45; rays start beyond 1.5 and have directions of
-//               unit length, so that distances are between 1 and 4, and stay normal floats at every scale. Scene and
-//               origins are multiplied by 2^k, directions stay.
-// Property      The same object at 2^k times the distance, exactly: nothing but exponents differs. Where a precision
-//               sets the objects aside as out of range, it does so with all of them: a refusal.
+// Construction  Objects of every kind inside the cube of half width 0.45; rays start beyond 1.5 and have
+//               directions of unit length, so that distances are between 1 and 4, and stay normal floats at
+//               every scale. Scene and origins are multiplied by 2^k, directions stay.
+// Property      The same object at 2^k times the distance, exactly: nothing but exponents differs. Where a
+//               precision sets the objects aside as out of range, it does so with all of them: a refusal.
 // Metric        Rate of changed answers; the interval of k without any.
 // Size          Nine scales in the short form, steps of 6 from size 2, of 1 from size 4.
-// Anchor        tinybvh loses all rays at a scale of 1e-3, Embree and Embree ROBUST at 1e-18; at 1e17 Embree loses
-//               58,534 random rays of 10^6.
+// Anchor        tinybvh loses all rays at a scale of 1e-3, Embree and Embree ROBUST at 1e-18; at 1e17 Embree
+//               loses 58,534 random rays of 10^6.
 
 #include <fmt/format.h>
 

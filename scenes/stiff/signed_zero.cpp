@@ -1,14 +1,14 @@
 // signed_zero, STIFF 23: zeros with a sign
 //
-// Construction  Boxes and octahedra with faces, edges and corners in the coordinate planes; rays along axes and in
-//               coordinate planes, in all 18 directions with one or two zeros, with coordinates of origins zero as well.
-//               All zeros are positive in the base; the other settings turn the signs of those in directions, origins,
-//               vertices, or all.
+// Construction  Boxes and octahedra with faces, edges and corners in the coordinate planes; rays along axes
+//               and in coordinate planes, in all 18 directions with one or two zeros, with coordinates of
+//               origins zero as well. All zeros are positive in the base; the other settings turn the signs
+//               of those in directions, origins, vertices, or all.
 // Property      The same object at the same distance.
 // Metric        Rate of changed answers.
 // Size          The same settings at every size.
-// Anchor        A -0 in the direction made madmann91's bvh lose hits (#20) and tinybvh read slabs in the wrong order
-//               (#282).
+// Anchor        A -0 in the direction made madmann91's bvh lose hits (#20) and tinybvh read slabs in the
+//               wrong order (#282).
 
 #include <array>
 

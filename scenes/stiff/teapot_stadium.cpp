@@ -1,12 +1,13 @@
 // teapot_stadium, STIFF 10: the teapot in the stadium, ever smaller
 //
-// Construction  The triangles of Newell's teapot, scaled to s times the stadium's length, stand at the origin in a bowl
-//               of unit length. Near the origin floats hold the teapot at every scale. Half of the rays run from the
-//               stands to vertices of the teapot, half anywhere between the stands. Only here does the stiffness, the
-//               scene's diagonal over its smallest feature, grow by what lies in the scene and not by where it is.
+// Construction  The triangles of Newell's teapot, scaled to s times the stadium's length, stand at the origin
+//               in a bowl of unit length. Near the origin floats hold the teapot at every scale. Half of the
+//               rays run from the stands to vertices of the teapot, half anywhere between the stands. Only
+//               here does the stiffness, the scene's diagonal over its smallest feature, grow by what lies in
+//               the scene and not by where it is.
 // Property      Graded by the oracle.
-// Metric        Work, structure and time against stiffness, as ratios to the base s = 1: a technique's break-down is the
-//               stiffness at which the cost has doubled.
+// Metric        Work, structure and time against stiffness, as ratios to the base s = 1: a technique's
+//               break-down is the stiffness at which the cost has doubled.
 // Size          Scales in steps of 100 in the short form, of 10 from size 2; the teapot of size 2 + size.
 // Anchor        None: suites of other libraries hold no such scene.
 

@@ -1,8 +1,8 @@
 // threads, STIFF 27: the same run by any number of threads
 //
-// Construction  Objects of every kind of moderate size, and three sets of rays: between points of space, to vertices,
-//               and along axes. What varies is the harness's: the number of threads, the instruction set of the build,
-//               fused multiplication and addition.
+// Construction  Objects of every kind of moderate size, and three sets of rays: between points of space, to
+//               vertices, and along axes. What varies is the harness's: the number of threads, the
+//               instruction set of the build, fused multiplication and addition.
 // Property      Graded by the oracle; beyond that the digest of all answers must not change.
 // Metric        Differences of digests; where there are any, they must all be ambiguous.
 // Size          40 size^2 objects of each kind, at most 4000.

@@ -173,7 +173,7 @@ std::vector<Solid> solids(int size, std::uint64_t seed) {
   std::vector<Solid> result;
   for (int level = 2; level <= std::min(2 + size, 8); ++level) result.push_back(icosphere(level));
   result.push_back(tetrahedron());
-  result.push_back(ring(16 * size, 8 * size));
+  result.push_back(ring(16 * std::min(size, 16), 8 * std::min(size, 16)));
   result.push_back(random_solid(SubdivisionRule::loop, std::min(2 + size, 6), seed));
   result.push_back(random_solid(SubdivisionRule::sqrt3, std::min(3 + size, 8), seed));
   return result;
