@@ -95,6 +95,11 @@ inline std::vector<NamedScene> scenes() {
   });
   add("lattice mesh", [](auto& b, auto&) { lattice_mesh(b); });
   add("soup", [](auto& b, auto& random) { soup(b, random, 120); });
+  add("polygons that are not planar", [](auto& b, auto& random) {
+    for (int i = 0; i < 60; ++i)
+      b.polygon(std::array{lattice_point(random, -4, 4), uniform_point(random, -4, 4), uniform_point(random, -4, 4),
+                           lattice_point(random, -4, 4)});
+  });
   add("garbage among good objects", [=](auto& b, auto& random) {
     soup(b, random, 40);
     b.triangle({nan, 0, 0}, {1, 0, 0}, {0, 1, 0});

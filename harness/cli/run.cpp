@@ -87,7 +87,7 @@ void add_run(CLI::App& program, const std::string& command_line, int& status) {
   repeatable(command->add_option("--scene", options->scenes, "Scenes in place of the suite's"));
   repeatable(command->add_option("--technique", options->techniques, "Techniques in place of the suite's"));
   repeatable(command->add_option("--rays", options->rays, "Ray distributions in place of the suite's"));
-  repeatable(command->add_option("--scalar", options->scalars, "float, double or both"));
+  repeatable(command->add_option("--scalar", options->scalars, "float or double; may be given twice"));
   repeatable(
       command->add_option("--intersector", options->intersectors,
                           "Ray-object test of triangles and polygons: fast, watertight, exact, or several"));

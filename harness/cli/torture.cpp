@@ -60,7 +60,7 @@ void add_torture(CLI::App& program, const std::string& command_line, int& status
                                  fmt::format("Cases: {}; all by default", fmt::join(case_names(), ", "))));
   repeatable(command->add_option("--technique", request.techniques,
                                  "Techniques; by default all, and Embree robust"));
-  repeatable(command->add_option("--scalar", options->scalars, "float (default), double or both"));
+  repeatable(command->add_option("--scalar", options->scalars, "float (default) or double; may be given twice"));
   repeatable(command->add_option("--intersector", options->intersectors,
                                  "fast, watertight, exact, or several; by default the first two"));
   command->add_flag("--flush-to-zero", request.flush_to_zero,

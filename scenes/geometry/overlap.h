@@ -67,9 +67,19 @@ bool surface_overlaps(const Triangle<Real>& triangle, const Box<Real>& box) {
   return overlap::flat<Real>(vertices, double_area_vector(triangle), box);
 }
 
+/// A polygon that is not planar is hit in the plane through its first vertex, which may lie outside the hull of its
+/// vertices: of such a polygon nothing but its bounds is known.
 template <class Real>
 bool surface_overlaps(const Polygon<Real>& polygon, std::span<const Vec3<Real>> vertices,
                       const Box<Real>& box) {
+  const Vec3d first(vertices.front());
+  Real largest = 0;
+  double farthest = 0;
+  for (const Vec3<Real>& vertex : vertices) {
+    largest = std::max(largest, max_abs(vertex));
+    farthest = std::max(farthest, std::abs(dot(polygon.normal, Vec3d(vertex) - first)));
+  }
+  if (farthest > static_cast<double>(padding(largest, 16)) * length(polygon.normal)) return true;
   return overlap::flat<Real>(vertices, polygon.normal, box);
 }
 

@@ -84,7 +84,8 @@ std::vector<StiffSetting> settings(int size, std::uint64_t seed) {
   for (const auto& [label, course, beside] : kRays)
     result.push_back({.label = label,
                       .scene = scene,
-                      .rays = ray_by_ray([=](const RandomNumbers& random, std::uint64_t number) {
+                      .rays = ray_by_ray([course = course, beside = beside](const RandomNumbers& random,
+                                                                            std::uint64_t number) {
                         return ray_through_corner(course, beside, random, number);
                       }),
                       .base = 0,

@@ -22,8 +22,6 @@ namespace {
 
 using namespace stiff;
 
-constexpr double kLattice = 0x1p-20;
-
 Vec3d random_bits(const RandomNumbers& random, std::uint64_t number, std::uint64_t dimension) {
   return {float_of(random.bits(number, dimension)), float_of(random.bits(number, dimension + 1)),
           float_of(random.bits(number, dimension + 2))};

@@ -71,14 +71,14 @@ std::vector<StiffSetting> settings(int size, std::uint64_t) {
   for (const auto& [name, kind, apex_radius, generator] : kQuadrics)
     for (const int exponent : exponents) {
       const std::string label = fmt::format("object={},distance=2^{}", name, exponent);
-      result.push_back(
-          {.label = label,
-           .scene = copies(kind, apex_radius, label),
-           .rays = ray_by_ray([generator, exponent](const RandomNumbers& random, std::uint64_t number) {
-             return tangent(generator, exponent, random, number);
-           }),
-           .stiffness_parameter = std::ldexp(1, exponent),
-           .default_rays = 500});
+      result.push_back({.label = label,
+                        .scene = copies(kind, apex_radius, label),
+                        .rays = ray_by_ray([generator = generator, exponent](const RandomNumbers& random,
+                                                                             std::uint64_t number) {
+                          return tangent(generator, exponent, random, number);
+                        }),
+                        .stiffness_parameter = std::ldexp(1, exponent),
+                        .default_rays = 500});
     }
   return result;
 }
