@@ -1,21 +1,11 @@
 // What makes bvh_sah and bvh_goldsmith_salmon those techniques.
 #include <gtest/gtest.h>
 
-#include "accel/core/registry.h"
-#include "accel/tests/nasty_scenes.h"
+#include "accel/tests/built_engine.h"
 #include "scenes/core/registry.h"
 
 namespace rayshoot {
 namespace {
-
-using Given = std::map<std::string, std::string>;
-
-Scene soup_scene(int count) {
-  SceneBuilder builder;
-  nasty::Random random(5);
-  nasty::soup(builder, random, count);
-  return std::move(builder).finish();
-}
 
 Scene sphereflake(int size) {
   for (const SceneGenerator* generator : scene_generators()) {
@@ -25,12 +15,6 @@ Scene sphereflake(int size) {
     return std::move(builder).finish();
   }
   return {};
-}
-
-template <class Real = double>
-std::unique_ptr<Engine<Real>> build(const char* id, const Geometry<Real>& geometry, const Given& given = {}) {
-  const TechniqueEntry& entry = technique_entry(id);
-  return entry.build<Real>({geometry, Arguments(entry.info.parameters, given, id)});
 }
 
 /// Equation (3) with both external costs equal.
