@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 namespace rayshoot::test {
 
@@ -22,6 +26,32 @@ std::string contents(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();
+}
+
+/// Become the program; called in a process of its own.
+[[noreturn]] void become_program(const std::vector<std::string>& arguments,
+                                 const std::filesystem::path& directory, const std::string& output,
+                                 const std::string& errors) {
+  std::vector<std::string> words{RAYSHOOT_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  if (std::freopen(output.c_str(), "w", stdout) && std::freopen(errors.c_str(), "w", stderr) &&
+      chdir(directory.c_str()) == 0)
+    execv(RAYSHOOT_PROGRAM, pointers.data());
+  _exit(127);
+}
+
+/// Wait until a file has `sign` in it, or for the end of a process; true when that has not ended.
+bool wait_for(const std::string& sign, const std::filesystem::path& file, pid_t process) {
+  siginfo_t ended{};
+  do {
+    if (contents(file).find(sign) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  } while (waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           ended.si_pid == 0);
+  return false;
 }
 
 }  // namespace
@@ -43,6 +73,19 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::filesy
   std::string command = fmt::format("cd {} && {}", quoted(directory), quoted(RAYSHOOT_PROGRAM));
   for (const std::string& argument : arguments) command.append(" ").append(quoted(argument));
   const int status = std::system(fmt::format("{} >{} 2>{}", command, quoted(output), quoted(errors)).c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
+}
+
+Outcome interrupt_program(const std::vector<std::string>& arguments, const std::string& sign,
+                          const std::filesystem::path& directory) {
+  const TemporaryFolder streams;
+  const std::string output = streams.path() / "output", errors = streams.path() / "errors";
+  const pid_t process = fork();
+  if (process < 0) throw std::runtime_error("no process");
+  if (process == 0) become_program(arguments, directory, output, errors);
+  if (wait_for(sign, errors, process)) kill(process, SIGINT);
+  int status = 0;
+  waitpid(process, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
 }
 
