@@ -169,10 +169,12 @@ class OctreeGlassner {
   void visit_voxels(const Ray<Real>& ray, Counter counter, Visitor&& visitor) const {
     Walk<Counter, Visitor> walk(*this, ray, counter, visitor);
     const Real margin = margin_ ? margin_->of_ray(ray) : 0;
+    // Before 0, or from what is no number, steps need not advance.
+    const Real t_min = std::max(Real{0}, ray.t_min);
     if (margin == 0)
-      walk.in_steps(ray.t_min);
+      walk.in_steps(t_min);
     else
-      walk.through_all_within(margin, ray.t_min);
+      walk.through_all_within(margin, t_min);
   }
 
   StructureStats structure() const {

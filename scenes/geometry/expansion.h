@@ -34,6 +34,8 @@ class Expansion {
       if (error != 0) terms_[kept++] = error;
       term = sum;
     }
+    // Full only of what is not a number, or where products underflow.
+    if (kept == static_cast<int>(terms_.size())) term += terms_[--kept];
     if (term != 0) terms_[kept++] = term;
     size_ = kept;
     return *this;
