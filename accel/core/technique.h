@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +24,8 @@ struct TechniqueInfo {
   std::string survey_section;
   std::string paper;
   std::vector<Parameter> parameters;
+  /// Names, in snake case, of what the technique counts beyond the common counts (`Count::event`).
+  std::vector<std::string> events{};
   /// Beyond this many objects a query is out of reach and the technique is left out of suites.
   std::uint64_t max_practical_objects = UINT64_MAX;
   /// It replays known hits instead of searching for them.
@@ -47,6 +50,8 @@ struct StructureStats {
   std::uint64_t references = 0;    ///< object references in leaves
   std::uint64_t max_depth = 0;     ///< of the root: 0
   std::uint64_t bytes = 0;         ///< memory of the structure, without the objects themselves
+  /// What only this technique has, by name in snake case, with the unit in the name.
+  std::map<std::string, double> figures{};
 };
 
 /// Equation (3): expected tests per ray that hits the root volume, occlusion neglected, and that volume.

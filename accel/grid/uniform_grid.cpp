@@ -32,7 +32,7 @@
 #include "accel/parts/cell_lists.h"
 #include "accel/parts/grid_resolution.h"
 #include "accel/parts/grid_walk.h"
-#include "accel/parts/mailbox.h"
+#include "accel/parts/visit_cells.h"
 #include "scenes/core/memory.h"
 
 namespace rayshoot {
@@ -189,10 +189,20 @@ class UniformGrid {
 
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
+    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
+  }
+
+  /// Hand the objects of the ray's cells to `visit`, cell by cell (visit_cells.h).
+  template <class Counter, class Reach, class Visit>
+  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
+    if (grid_.cells() == 0) return;
+    const auto walk = [&](const auto& cells) {
+      walk_grid(grid_, ray, count, reach, [&](std::uint64_t cell) { return visit(cells.objects(cell)); });
+    };
     if (const CellLists* dense = std::get_if<CellLists>(&cells_))
-      visit_cells(*dense, ray, mailbox, count, leaf);
+      walk(*dense);
     else
-      visit_cells(std::get<HashedCellLists>(cells_), ray, mailbox, count, leaf);
+      walk(std::get<HashedCellLists>(cells_));
   }
 
   StructureStats structure() const {
@@ -208,27 +218,6 @@ class UniformGrid {
   }
 
  private:
-  template <class Cells, class Counter, class L>
-  void visit_cells(const Cells& cells, const Ray<Real>& ray, Mailbox& mailbox, Counter count, L& leaf) const {
-    if (grid_.cells() == 0) return;
-    const bool use_mailbox = mailboxes_ > 0;
-    if (use_mailbox) mailbox.begin_ray();
-    walk_grid(
-        grid_, ray, count, [&] { return leaf.reach(); },
-        [&](std::uint64_t cell) {
-          const std::span<const std::uint32_t> objects = cells.objects(cell);
-          count.cell(objects.empty());
-          for (const std::uint32_t object : objects) {
-            if (use_mailbox && !mailbox.first_visit(object)) {
-              count.mailbox_hit();
-              continue;
-            }
-            if (leaf(object)) return true;
-          }
-          return false;
-        });
-  }
-
   GridPlanes<Real> grid_;
   std::variant<CellLists, HashedCellLists> cells_;
   std::uint32_t mailboxes_ = 0;

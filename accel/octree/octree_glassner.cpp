@@ -29,9 +29,9 @@
 #include <numeric>
 
 #include "accel/core/define_technique.h"
-#include "accel/parts/mailbox.h"
 #include "accel/parts/octree_build.h"
 #include "accel/parts/surface_margin.h"
+#include "accel/parts/visit_cells.h"
 
 namespace rayshoot {
 
@@ -154,20 +154,20 @@ class OctreeGlassner {
   Scratch scratch() const { return Mailbox(mailboxes_); }
 
   template <class Counter, class L>
-  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter counter, L& leaf) const {
-    if (mailboxes_ > 0) {
-      mailbox.begin_ray();
-      visit_voxels(ray, counter, Tester<Counter, L, true>{leaf, counter, mailbox});
-    } else {
-      visit_voxels(ray, counter, Tester<Counter, L, false>{leaf, counter, mailbox});
-    }
+  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
+    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
   }
 
-  /// Hand the ray's voxels, empty ones included, to `visitor` in the order in which the ray meets them, until
-  /// it returns true or nothing beyond visitor.reach() is left.
-  template <class Counter, class Visitor>
-  void visit_voxels(const Ray<Real>& ray, Counter counter, Visitor&& visitor) const {
-    Walk<Counter, Visitor> walk(*this, ray, counter, visitor);
+  /// Hand the objects of the ray's voxels, empty ones included, to `visit` (visit_cells.h).
+  template <class Counter, class Reach, class Visit>
+  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
+    visit_voxels(ray, count, reach, [&](const Voxel& voxel) { return visit(voxel.objects); });
+  }
+
+  /// The same with all that is known of a voxel.
+  template <class Counter, class Reach, class Visit>
+  void visit_voxels(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
+    Walk<Counter, Reach, Visit> walk(*this, ray, count, reach, visit);
     const Real margin = margin_ ? margin_->of_ray(ray) : 0;
     // Before 0, or from what is no number, steps need not advance.
     const Real t_min = std::max(Real{0}, ray.t_min);
@@ -191,10 +191,8 @@ class OctreeGlassner {
   }
 
  private:
-  template <class Counter, class Visitor>
+  template <class Counter, class Reach, class Visit>
   class Walk;
-  template <class Counter, class L, bool Once>
-  struct Tester;
 
   NodeTable nodes_;
   Lattice<Real> lattice_;
@@ -205,45 +203,26 @@ class OctreeGlassner {
   std::uint32_t mailboxes_ = 0;
 };
 
-/// Tests the objects of a voxel. A hit may lie beyond the voxel (§5.3): the leaf keeps it, and its reach
-/// tells when no voxel before it is left.
-template <class Real>
-template <class Counter, class L, bool Once>
-struct OctreeGlassner<Real>::Tester {
-  L& leaf;
-  Counter counter;
-  Mailbox& mailbox;
-
-  bool operator()(const Voxel& voxel) const {
-    for (const std::uint32_t object : voxel.objects) {
-      if (Once && !mailbox.first_visit(object))
-        counter.mailbox_hit();
-      else if (leaf(object))
-        return true;
-    }
-    return false;
-  }
-  Real reach() const { return leaf.reach(); }
-};
-
 /// One ray's way through the octree.
 template <class Real>
-template <class Counter, class Visitor>
+template <class Counter, class Reach, class Visit>
 class OctreeGlassner<Real>::Walk {
  public:
-  Walk(const OctreeGlassner& octree, const Ray<Real>& ray, Counter counter, Visitor& visitor)
+  Walk(const OctreeGlassner& octree, const Ray<Real>& ray, Counter count, const Reach& reach,
+       const Visit& visit)
       : octree_(octree),
         path_(octree.lattice_, ray),
         layers_(octree.lattice_.layers()),
-        counter_(counter),
-        visitor_(visitor) {}
+        count_(count),
+        reach_(reach),
+        visit_(visit) {}
 
   /// Figure 11.
   void in_steps(Real t_min) {
     // Q is the origin, or the point where the ray enters the box of the environment.
     const Interval<Real> box = path_.inside({0, 0, 0}, layers_);
     Real t = std::max(box.enter, t_min);
-    if (!(t <= box.exit && t <= visitor_.reach())) return;
+    if (!(t <= box.exit && t <= reach_())) return;
     Layers q;
     for (int axis = 0; axis < 3; ++axis) q[axis] = path_.layer(axis, t, 0, layers_);
     if (t > 0 && planes_at(q, t) > 0 && touched_voxels(t, {}, q)) return;
@@ -251,11 +230,11 @@ class OctreeGlassner<Real>::Walk {
     while (std::max({q[0], q[1], q[2]}) < layers_) {
       // Locate the voxel which contains Q and test its objects.
       const Voxel voxel = locate(q);
-      if (visit(voxel)) return;
+      if (visit_(voxel)) return;
 
       // Find where the ray leaves the voxel; there it ends if it ends before.
       t = exit(voxel);
-      if (visitor_.reach() < t) return;
+      if (reach_() < t) return;
 
       // Step into the neighbour; where that may be by an edge or a vertex, visit the voxels touched there.
       if (step(voxel, t, q) && touched_voxels(t, voxel, q)) return;
@@ -263,14 +242,14 @@ class OctreeGlassner<Real>::Walk {
   }
 
   /// Visit every voxel that the ray passes at no more than that margin, from `t_min` on.
-  void through_all_within(Real margin, Real t_min) {
+  [[gnu::noinline, gnu::cold]] void through_all_within(Real margin, Real t_min) {
     descend(
         NodeTable::kRoot, {0, 0, 0}, layers_,
         [&](const Layers& corner, int size) {
           const Interval<Real> inside = path_.near(corner, size, margin);
-          return inside.enter <= inside.exit && inside.exit >= t_min && inside.enter <= visitor_.reach();
+          return inside.enter <= inside.exit && inside.exit >= t_min && inside.enter <= reach_();
         },
-        [this](const Voxel& voxel) { return visit(voxel); });
+        visit_);
   }
 
  private:
@@ -288,7 +267,8 @@ class OctreeGlassner<Real>::Walk {
   }
 
   Real exit(const Voxel& voxel) const {
-    return std::min({path_.entry(0, voxel.corner[0] + voxel.size), path_.entry(1, voxel.corner[1] + voxel.size),
+    return std::min({path_.entry(0, voxel.corner[0] + voxel.size),
+                     path_.entry(1, voxel.corner[1] + voxel.size),
                      path_.entry(2, voxel.corner[2] + voxel.size)});
   }
 
@@ -301,14 +281,15 @@ class OctreeGlassner<Real>::Walk {
     for (int axis = 0; axis < 3; ++axis) {
       const int face = voxel.corner[axis] + voxel.size;
       const bool passed = path_.entry(axis, face) <= until;
-      q[axis] = passed ? path_.layer(axis, until, face, layers_) : path_.layer(axis, until, q[axis], face - 1);
+      q[axis] =
+          passed ? path_.layer(axis, until, face, layers_) : path_.layer(axis, until, q[axis], face - 1);
       skips |= q[axis] > face;
     }
     return skips || planes_at(q, t) > 1;
   }
 
   const NodeTable::Node* find(NodeTable::Name name) const {
-    counter_.step();
+    count_.step();
     return octree_.nodes_.find(name);
   }
 
@@ -317,35 +298,31 @@ class OctreeGlassner<Real>::Walk {
     return {name, corner, size, std::span(octree_.references_).subspan(leaf->first, leaf->count)};
   }
 
-  bool visit(const Voxel& voxel) {
-    counter_.cell(voxel.objects.empty());
-    return visitor_(voxel);
-  }
-
   /// Number of axes on which the ray may pass into the layer of q at t.
   int planes_at(const Layers& q, Real t) const {
     int planes = 0;
-    for (int axis = 0; axis < 3; ++axis) planes += q[axis] > 0 && path_.entry(axis, q[axis]) * kApart<Real> >= t;
+    for (int axis = 0; axis < 3; ++axis)
+      planes += q[axis] > 0 && path_.entry(axis, q[axis]) * kApart<Real> >= t;
     return planes;
   }
 
   /// Visit the voxels in which the ray may be at t, but neither the one it comes from nor that of layers q, into
   /// which it goes on; true when the visit must end.
-  bool touched_voxels(Real t, const Voxel& from, const Layers& q) {
+  [[gnu::noinline, gnu::cold]] bool touched_voxels(Real t, const Voxel& from, const Layers& q) {
     return descend(
         NodeTable::kRoot, {0, 0, 0}, layers_,
         [&](const Layers& corner, int size) {
           const Interval<Real> inside = path_.inside(corner, size);
           return inside.enter <= std::min(inside.exit, t * kApart<Real>) && t <= inside.exit * kApart<Real>;
         },
-        [&](const Voxel& voxel) { return voxel.name != from.name && !voxel.contains(q) && visit(voxel); });
+        [&](const Voxel& voxel) { return voxel.name != from.name && !voxel.contains(q) && visit_(voxel); });
   }
 
   /// Hand to `visit` the leaves below a node for which, and for all above which, `meets(corner, size)` holds,
   /// near ones first; true when `visit` returned true.
-  template <class Meets, class Visit>
+  template <class Meets, class VisitLeaf>
   bool descend(NodeTable::Name name, const Layers& corner, int size, const Meets& meets,
-               const Visit& visit) const {
+               const VisitLeaf& visit) const {
     if (!meets(corner, size)) return false;
     const NodeTable::Node* node = find(name);
     if (!node || !node->interior()) return visit(voxel(name, node, corner, size));
@@ -361,8 +338,9 @@ class OctreeGlassner<Real>::Walk {
   const OctreeGlassner& octree_;
   LatticeRay<Real> path_;
   int layers_;
-  Counter counter_;
-  Visitor& visitor_;
+  Counter count_;
+  const Reach& reach_;
+  const Visit& visit_;
 };
 
 RAYSHOOT_TECHNIQUE(octree_glassner, OctreeGlassner)

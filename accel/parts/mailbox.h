@@ -16,6 +16,8 @@ class Mailbox {
   /// A mailbox for that many objects; one for none serves where mailboxes are off.
   explicit Mailbox(std::uint32_t objects = 0) : last_ray_(objects, 0) {}
 
+  bool in_use() const { return !last_ray_.empty(); }
+
   /// Forget what the ray before has met.
   void begin_ray() {
     if (++ray_ != 0) return;

@@ -1,6 +1,6 @@
-// Counts are deterministic: a changed count is a bug or an explained improvement. data/golden_counts.txt
-// holds a row for every technique, scene and query; a failing row prints what it should be replaced by if the
-// change is meant.
+// Counts are deterministic: a changed count is a bug or an explained improvement. data/golden_counts/<id>.txt holds a
+// row of the technique for every scene and query; a failing row prints what it should be replaced by if the change is
+// meant.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,9 +21,9 @@ class NoTracer final : public Tracer {
   void any(std::span<const Ray<double>>, std::span<std::uint8_t>) const override { ADD_FAILURE(); }
 };
 
-std::set<std::string> golden_rows() {
-  std::ifstream file(RAYSHOOT_TEST_DATA "/golden_counts.txt");
-  EXPECT_TRUE(file) << "golden_counts.txt is missing";
+std::set<std::string> golden_rows(const std::string& id) {
+  std::ifstream file(fmt::format("{}/golden_counts/{}.txt", RAYSHOOT_TEST_DATA, id));
+  EXPECT_TRUE(file) << id << ".txt is missing";
   std::set<std::string> rows;
   for (std::string line; std::getline(file, line);) rows.insert(line);
   return rows;
@@ -38,21 +38,24 @@ std::string row(const TechniqueEntry& entry, const char* spec, Query query) {
   std::vector<Hit<double>> hits(set.rays.size());
   const Work w = count_work<double>(*engine, query, set.rays, hits, scratch, 1).total;
   const StructureStats s = engine->structure();
-  return fmt::format(
-      "{} {} {}: tests {} distinct {} volumes {} steps {} cells {} empty {} mailbox {}; nodes {} leaves {} "
+  std::string row = fmt::format(
+      "{} {}: tests {} distinct {} volumes {} steps {} cells {} empty {} mailbox {}; nodes {} leaves {} "
       "empty {} references {} depth {}",
-      entry.info.id, spec,
+      spec,
       query == Query::closest ? "closest"
       : query == Query::any   ? "any"
                               : "strict",
       w.object_tests, w.distinct_objects, w.volume_tests, w.steps, w.cells, w.empty_cells, w.mailbox_hits,
       s.nodes, s.leaves, s.empty_leaves, s.references, s.max_depth);
+  for (std::size_t kind = 0; kind < entry.info.events.size(); ++kind)
+    row += fmt::format(" {} {}", entry.info.events[kind], w.events[kind]);
+  return row;
 }
 
 class GoldenCounts : public ::testing::TestWithParam<const TechniqueEntry*> {};
 
 TEST_P(GoldenCounts, AreExactlyAsRecorded) {
-  const std::set<std::string> golden = golden_rows();
+  const std::set<std::string> golden = golden_rows(GetParam()->info.id);
   for (const char* spec : {"gears:1/curves", "jacks:2/curves", "mount:3/patches", "teapot:3/curves"})
     for (const Query query : {Query::closest, Query::any, Query::strict}) {
       const std::string counted = row(*GetParam(), spec, query);

@@ -180,17 +180,19 @@ TEST(OctreeGlassner, EndsDivisionThatTakesTooMuchStorage) {
   EXPECT_EQ(stats.references, 4u * 4 * 4 * 4 * 20'000);
 }
 
-/// Collects the names of the voxels on a ray, or those up to some distance.
-struct Names {
-  double reach_ = kMiss<double>;
+/// The names of the voxels on a ray that begin within `reach`.
+template <class Counter>
+std::vector<std::string> names_on(const OctreeGlassner<double>& technique, const Ray<double>& ray,
+                                  double reach, Counter count) {
   std::vector<std::string> names;
-
-  bool operator()(const OctreeGlassner<double>::Voxel& voxel) {
-    names.push_back(std::to_string(voxel.name));
-    return false;
-  }
-  double reach() const { return reach_; }
-};
+  technique.visit_voxels(
+      ray, count, [&] { return reach; },
+      [&](const OctreeGlassner<double>::Voxel& voxel) {
+        names.push_back(std::to_string(voxel.name));
+        return false;
+      });
+  return names;
+}
 
 /// A leaf that a ray passes, by a computation of its own.
 struct Passed {
@@ -249,16 +251,15 @@ TEST(OctreeWalk, MeetsTheLeavesOnTheRayInTheirOrder) {
   const SoupTechnique soup;
   std::size_t leaves = 0, touched = 0;
   for (const Ray<double>& ray : random_rays(500)) {
-    Names visited{ray.t_max};
-    soup.technique.visit_voxels(ray, NoCount{}, visited);
+    std::vector<std::string> visited = names_on(soup.technique, ray, ray.t_max, NoCount{});
     const auto expected = names_of(passed(soup.octree, ray, hardly));
     const auto possible = names_of(passed(soup.octree, ray, -hardly));
-    const auto all = visited.names.size();
-    std::erase_if(visited.names, [&](const std::string& name) {
+    const auto all = visited.size();
+    std::erase_if(visited, [&](const std::string& name) {
       EXPECT_THAT(possible, Contains(name));
       return std::find(expected.begin(), expected.end(), name) == expected.end();
     });
-    ASSERT_EQ(visited.names, expected) << conformance::describe(ray);
+    ASSERT_EQ(visited, expected) << conformance::describe(ray);
     leaves += expected.size(), touched += all - expected.size();
   }
   EXPECT_GT(leaves, 1000u);
@@ -269,12 +270,10 @@ TEST(OctreeWalk, MeetsTheLeavesOnTheRayInTheirOrder) {
 TEST(OctreeWalk, TakesAStepForEveryNameOnTheWayFromTheRoot) {
   const SoupTechnique soup;
   for (const Ray<double>& ray : random_rays(200)) {
-    Names visited{ray.t_max};
     Work work;
-    soup.technique.visit_voxels(ray, Count(work), visited);
+    const std::vector<std::string> visited = names_on(soup.technique, ray, ray.t_max, Count(work));
     std::size_t digits = 0;
-    for (const std::string& name : visited.names) digits += name.size();
-    ASSERT_EQ(work.cells, visited.names.size());
+    for (const std::string& name : visited) digits += name.size();
     ASSERT_EQ(work.steps, digits) << conformance::describe(ray);
   }
 }
@@ -282,11 +281,10 @@ TEST(OctreeWalk, TakesAStepForEveryNameOnTheWayFromTheRoot) {
 TEST(OctreeWalk, EndsAtTheReach) {
   const SoupTechnique soup;
   for (const Ray<double>& ray : random_rays(200)) {
-    Names visited{0.5};
-    soup.technique.visit_voxels(ray, NoCount{}, visited);
+    const std::vector<std::string> visited = names_on(soup.technique, ray, 0.5, NoCount{});
     Ray<double> shorter = ray;
     shorter.t_max = 0.5;
-    ASSERT_EQ(visited.names, names_of(passed(soup.octree, shorter, 0)));
+    ASSERT_EQ(visited, names_of(passed(soup.octree, shorter, 0)));
   }
 }
 

@@ -9,7 +9,7 @@ namespace rayshoot {
 
 /// What counting a technique's work on a batch yields.
 struct Counts {
-  report::Work work, strict_work;
+  Work work, strict_work;
   report::Efficiency efficiency;
 };
 

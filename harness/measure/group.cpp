@@ -192,8 +192,9 @@ class Group {
     if (!cell.engine().countable()) return;
     const Counts counts =
         count(cell.engine(), batch, geometry_.size(), suite_.strict_tests, suite_.seed, all_threads_);
-    measurement.work = counts.work;
-    measurement.strict_work = counts.strict_work;
+    const std::vector<std::string>& events = cell.built->choice->entry->info.events;
+    measurement.work = record(counts.work, events);
+    measurement.strict_work = record(counts.strict_work, events);
     measurement.efficiency = counts.efficiency;
   }
 

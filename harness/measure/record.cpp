@@ -11,15 +11,17 @@ std::optional<report::Ulps> ulps_of(const ErrorHistogram& errors) {
 
 }  // namespace
 
-report::Work record(const Work& work) {
-  return {.rays = work.rays,
-          .object_tests = work.object_tests,
-          .distinct_objects = work.distinct_objects,
-          .volume_tests = work.volume_tests,
-          .steps = work.steps,
-          .cells = work.cells,
-          .empty_cells = work.empty_cells,
-          .mailbox_hits = work.mailbox_hits};
+report::Work record(const Work& work, const std::vector<std::string>& events) {
+  report::Work recorded{.rays = work.rays,
+                        .object_tests = work.object_tests,
+                        .distinct_objects = work.distinct_objects,
+                        .volume_tests = work.volume_tests,
+                        .steps = work.steps,
+                        .cells = work.cells,
+                        .empty_cells = work.empty_cells,
+                        .mailbox_hits = work.mailbox_hits};
+  for (std::size_t kind = 0; kind < events.size(); ++kind) recorded.events[events[kind]] = work.events[kind];
+  return recorded;
 }
 
 std::map<std::string, report::ConfigValue> config_of(const Arguments& arguments) {
@@ -35,7 +37,8 @@ report::Structure record(const StructureStats& stats) {
           .empty_leaves = stats.empty_leaves,
           .references = stats.references,
           .max_depth = stats.max_depth,
-          .bytes = stats.bytes};
+          .bytes = stats.bytes,
+          .figures = stats.figures};
 }
 
 report::Errors record(const Grades& grades) {

@@ -10,7 +10,8 @@
 /// What was found out, in the terms of the report.
 namespace rayshoot {
 
-report::Work record(const Work& work);
+/// `events` names the technique's own counts, as its TechniqueInfo does.
+report::Work record(const Work& work, const std::vector<std::string>& events);
 report::Structure record(const StructureStats& stats);
 report::Errors record(const Grades& grades);
 std::map<std::string, report::ConfigValue> config_of(const Arguments& arguments);

@@ -7,8 +7,8 @@
 
 /// The members of every object of a report: what reader and writer both follow.
 ///
-/// A visitor has required(name, value), optional(name, value), for a std::optional or a list that is absent when
-/// empty, choice(name, value, words), for a required string that is one of some words, and optional_choice, which is
+/// A visitor has required(name, value), optional(name, value), for a std::optional or a list or map that is absent
+/// when empty, choice(name, value, words), for a required string that is one of some words, and optional_choice, which is
 /// the first of them where it is absent.
 namespace rayshoot::report {
 
@@ -115,6 +115,7 @@ void members(T& work, Visitor& visitor) {
   visitor.required("cells", work.cells);
   visitor.required("empty_cells", work.empty_cells);
   visitor.required("mailbox_hits", work.mailbox_hits);
+  visitor.optional("events", work.events);
 }
 
 template <Some<Structure> T, class Visitor>
@@ -125,6 +126,7 @@ void members(T& structure, Visitor& visitor) {
   visitor.required("references", structure.references);
   visitor.required("max_depth", structure.max_depth);
   visitor.required("bytes", structure.bytes);
+  visitor.optional("figures", structure.figures);
 }
 
 template <Some<Predicted> T, class Visitor>

@@ -143,8 +143,9 @@ class Reader {
   void optional(const char* name, std::optional<T>& value) {
     if (known(name) != json_.end()) required(name, value.emplace());
   }
+  /// A list or a map, empty where it is absent.
   template <class T>
-  void optional(const char* name, std::vector<T>& values) {
+  void optional(const char* name, T& values) {
     if (known(name) != json_.end()) required(name, values);
   }
 

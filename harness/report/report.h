@@ -97,10 +97,14 @@ struct Verdict {
 struct Work {
   std::uint64_t rays = 0, object_tests = 0, distinct_objects = 0, volume_tests = 0, steps = 0, cells = 0,
                 empty_cells = 0, mailbox_hits = 0;
+  /// What only this technique counts, by name.
+  std::map<std::string, std::uint64_t> events{};
 };
 
 struct Structure {
   std::uint64_t nodes = 0, leaves = 0, empty_leaves = 0, references = 0, max_depth = 0, bytes = 0;
+  /// What only this technique has, by name.
+  std::map<std::string, double> figures{};
 };
 
 /// Equation (3), per ray of the set: the expected tests of a ray that hits the root volume times the fraction of

@@ -84,6 +84,10 @@ class Writer {
   void optional(const char* name, const std::vector<T>& values) {
     if (!values.empty()) unless_not_finite(name, values);
   }
+  template <class T>
+  void optional(const char* name, const std::map<std::string, T>& values) {
+    if (!values.empty()) required(name, values);
+  }
 
   Json object = Json::object();
 

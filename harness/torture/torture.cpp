@@ -69,7 +69,7 @@ report::Grading record(const TortureCell& cell, const Tally& tally) {
                           .threads_differ = tally.threads_differ,
                           .most_steps = tally.most_steps};
   if (cell.base()) grading.base = cell.base()->label;
-  if (tally.work.rays > 0) grading.work = record(tally.work);
+  if (tally.work.rays > 0) grading.work = record(tally.work, cell.technique->entry->info.events);
   if (tally.message[0] != 0) grading.message = tally.message.data();
   return grading;
 }

@@ -61,9 +61,9 @@ inline report::Report full_report() {
        .intersector = "exact",
        .query = "closest+any",
        .verdict = {report::Status::graded, 30, 1, "exhaustive", "one ray differs"},
-       .work = report::Work{30, 120, 100, 60, 90, 80, 20, 10},
+       .work = report::Work{30, 120, 100, 60, 90, 80, 20, 10, {{"states_shared", 7}}},
        .strict_work = report::Work{15, 240, 200, 61, 91, 81, 21, 11},
-       .structure = report::Structure{64, 63, 40, 120, 1, 4096},
+       .structure = report::Structure{64, 63, 40, 120, 1, 4096, {{"void_area_per_object", 0.5}}},
        .predicted = report::Predicted{4.5, 2.25},
        .efficiency = report::Efficiency{0.036, {0.03, 0.042}, 0.14, {0.13, 0.15}},
        .errors =
