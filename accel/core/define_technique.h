@@ -104,17 +104,18 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
                                                       std::span<Hit<Real>> hits,
                                                       typename A::Scratch& scratch) const {
     for (std::size_t i = 0; i < rays.size(); ++i)
-      hits[i] = closest_hit(technique_, test, name(), rays[i], scratch);
+      hits[i] = closest_hit(technique_, test, name(), begun(rays[i]), scratch);
   }
   template <class Test>
   [[gnu::flatten, gnu::noinline]] void any_of_all(const Test& test, std::span<const Ray<Real>> rays,
                                                   std::span<std::uint8_t> blocked,
                                                   typename A::Scratch& scratch) const {
     for (std::size_t i = 0; i < rays.size(); ++i)
-      blocked[i] = any_hit(technique_, test, name(), rays[i], scratch);
+      blocked[i] = any_hit(technique_, test, name(), begun(rays[i]), scratch);
   }
 
-  Hit<Real> counted_query(Query query, const Ray<Real>& ray, Scratch& scratch, Work& work) const {
+  Hit<Real> counted_query(Query query, const Ray<Real>& given, Scratch& scratch, Work& work) const {
+    const Ray<Real> ray = begun(given);
     using Test = ObjectTest<Real>;
     const Test test{*geometry_};
     if (query == Query::closest) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "accel/core/technique.h"
@@ -117,7 +118,15 @@ class RecordingLeaf {
   std::vector<std::uint32_t>& candidates_;
 };
 
-/// The nearest hit of a ray.
+/// The ray as techniques expect it: it begins at 0 at the earliest, also where its t_min is negative or no number. From
+/// such a t_min steps need not advance.
+template <class Real>
+Ray<Real> begun(Ray<Real> ray) {
+  ray.t_min = std::max(Real{0}, ray.t_min);
+  return ray;
+}
+
+/// The nearest hit of a ray that has `begun`.
 template <Technique A, class Real, class Test>
 Hit<Real> closest_hit(const A& technique, const Test& test, Naming name, const Ray<Real>& ray,
                       typename A::Scratch& scratch) {
@@ -126,7 +135,7 @@ Hit<Real> closest_hit(const A& technique, const Test& test, Naming name, const R
   return leaf.hit();
 }
 
-/// Whether a ray meets anything.
+/// Whether a ray that has `begun` meets anything.
 template <Technique A, class Real, class Test>
 bool any_hit(const A& technique, const Test& test, Naming name, const Ray<Real>& ray,
              typename A::Scratch& scratch) {
@@ -135,7 +144,7 @@ bool any_hit(const A& technique, const Test& test, Naming name, const Ray<Real>&
   return leaf.blocked();
 }
 
-/// Visit with `leaf`, counting all work but distinct objects, and leave every candidate in `candidates`:
+/// Visit for a ray that has `begun` with `leaf`, counting all work but distinct objects, and leave every candidate in `candidates`:
 /// Revelles' optimizer A(r, s) with a ClosestLeaf, the strict optimizer with a StrictLeaf.
 template <Technique A, class Real, class Inner>
 void counted_visit(const A& technique, const Ray<Real>& ray, typename A::Scratch& scratch, Work& work,

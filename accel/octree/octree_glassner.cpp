@@ -169,12 +169,10 @@ class OctreeGlassner {
   void visit_voxels(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     Walk<Counter, Reach, Visit> walk(*this, ray, count, reach, visit);
     const Real margin = margin_ ? margin_->of_ray(ray) : 0;
-    // Before 0, or from what is no number, steps need not advance.
-    const Real t_min = std::max(Real{0}, ray.t_min);
     if (margin == 0)
-      walk.in_steps(t_min);
+      walk.in_steps(ray.t_min);
     else
-      walk.through_all_within(margin, t_min);
+      walk.through_all_within(margin, ray.t_min);
   }
 
   StructureStats structure() const {

@@ -1,6 +1,6 @@
 #include "accel/tests/conformance.h"
 
-#include "accel/tests/nasty_scenes.h"
+#include "accel/tests/built_engine.h"
 
 namespace rayshoot {
 namespace {
@@ -35,13 +35,37 @@ TEST_P(Conformance, EqualsExhaustiveSearchInFloat) { check_nasty_scenes<float>(*
 
 TEST_P(Conformance, EqualsExhaustiveSearchInDouble) { check_nasty_scenes<double>(*GetParam()); }
 
+/// A ray begins at 0 at the earliest: one that is said to begin before, or at what is no number, has the answers of one
+/// that begins there.
+TEST_P(Conformance, RaysBeginAtZero) {
+  const Geometry<double> geometry(soup_scene(200));
+  const Arguments arguments(GetParam()->info.parameters, {}, GetParam()->info.id);
+  const auto engine = GetParam()->build<double>({geometry, arguments});
+  std::vector<Ray<double>> early, begun;
+  for (const Ray<double>& ray : nasty::rays(geometry, 1, 40))
+    for (const double t_min :
+         {-1e-9, -3.0, -Box<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+      begun.push_back(ray), early.push_back(ray);
+      begun.back().t_min = 0, early.back().t_min = t_min;
+    }
+  for (const Query query : {Query::closest, Query::any, Query::strict}) {
+    const Counted<double> of_early = counted(*engine, query, early),
+                          of_begun = counted(*engine, query, begun);
+    EXPECT_EQ(of_early.hits, of_begun.hits);
+    EXPECT_EQ(of_early.work, of_begun.work);
+  }
+  const auto scratch = engine->scratch();
+  std::vector<Hit<double>> hits(early.size()), expected(early.size());
+  std::vector<std::uint8_t> blocked(early.size()), expected_blocked(early.size());
+  engine->closest(early, hits, *scratch), engine->closest(begun, expected, *scratch);
+  engine->any(early, blocked, *scratch), engine->any(begun, expected_blocked, *scratch);
+  EXPECT_EQ(hits, expected);
+  EXPECT_EQ(blocked, expected_blocked);
+}
+
 /// Hits and counts may not depend on who traced which ray.
 TEST_P(Conformance, ThreadsChangeNothing) {
-  SceneBuilder builder;
-  nasty::Random random(3);
-  nasty::soup(builder, random, 300);
-  const Scene scene = std::move(builder).finish();
-  const Geometry<float> geometry(scene);
+  const Geometry<float> geometry(soup_scene(300));
   const std::vector<Ray<float>> rays = nasty::rays(geometry, 1, 4000);
   const Arguments arguments(GetParam()->info.parameters, {}, GetParam()->info.id);
   const auto engine = GetParam()->build<float>({geometry, arguments});

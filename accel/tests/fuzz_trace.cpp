@@ -57,10 +57,20 @@ Scene scene_of(Bytes& bytes) {
   return std::move(builder).finish();
 }
 
-/// A finite ray: of others nothing is promised but that they end.
+/// A ray, of three in four unbounded.
+template <class Real>
+Ray<Real> ray_of(Bytes& bytes) {
+  Ray<Real> ray{.origin = Vec3<Real>(bytes.point()), .direction = Vec3<Real>(bytes.point())};
+  if (bytes.next<std::uint8_t>() % 4 == 0)
+    ray.t_min = static_cast<Real>(bytes.coordinate()), ray.t_max = static_cast<Real>(bytes.coordinate());
+  return ray;
+}
+
+/// A ray as documented and finite: of others nothing is promised but that they end.
 template <class Real>
 bool ordinary(const Ray<Real>& ray) {
-  return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3<Real>{};
+  return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3<Real>{} &&
+         ray.t_min >= 0 && std::isfinite(ray.t_max);
 }
 
 template <class Real>
@@ -76,7 +86,7 @@ void trace(Bytes& bytes) {
   std::vector<Ray<Real>> rays;
   std::vector<Ray<Real>> odd;
   for (int count = 0; count < 8 && (count == 0 || !bytes.empty()); ++count) {
-    const Ray<Real> ray{.origin = Vec3<Real>(bytes.point()), .direction = Vec3<Real>(bytes.point())};
+    const Ray<Real> ray = ray_of<Real>(bytes);
     (ordinary(ray) ? rays : odd).push_back(ray);
   }
   rays.push_back({.origin = {0, 0, 9}, .direction = {0, 0, -1}});
@@ -84,6 +94,7 @@ void trace(Bytes& bytes) {
   conformance::check_engine<Real>(*engine, rays, truths);
   std::vector<Hit<Real>> hits(odd.size());
   engine->closest(odd, hits, *engine->scratch());
+  engine->count(Query::strict, odd, hits, *engine->scratch());
   if (::testing::Test::HasFailure()) std::abort();
 }
 

@@ -165,6 +165,17 @@ TEST(Expansion, KeepsWhatADoubleWouldDrop) {
   EXPECT_EQ(product.rounded(), 0x1p-52 - 0x1p-104) << "and 2^-156 less";
 }
 
+/// Every term that is no number leaves an error that is none either, and would be kept.
+TEST(Expansion, StaysWithinItsRoom) {
+  struct {
+    Expansion sum;
+    std::array<double, 256> behind{};
+  } memory;
+  for (int i = 0; i < 200; ++i) memory.sum += std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(memory.sum.rounded()));
+  EXPECT_EQ(memory.behind, (std::array<double, 256>{}));
+}
+
 TEST(SideOfEdge, IsExactWhereProductsRoundToTheSame) {
   EXPECT_EQ(side_of_edge(3, 7, 6, 14), 0);
   // (1 + 2^-30)^2 and 1 + 2^-29 round to the same double; the first is larger by 2^-60.
