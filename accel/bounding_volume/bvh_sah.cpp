@@ -160,8 +160,7 @@ class BvhSah {
   }
 
   void predict(const ChildReference& node, const Box<Real>& box, Prediction<Real>& sum) const {
-    const double probability =
-        box.surface_area() / bounds_.surface_area();
+    const double probability = box.surface_area() / bounds_.surface_area();
     if (node.leaf()) {
       sum.object_tests += probability * node.count;
       return;

@@ -145,8 +145,7 @@ SahSplit<Real> sweep_split(std::span<BoxedObject<Real>> objects, const Box<Real>
     Box<Real> left;
     for (std::size_t i = 1; i < count; ++i) {
       left.include(objects[i - 1].box);
-      const double cost =
-          (left.surface_area() * static_cast<double>(i) + right_cost[i]) / parent_area;
+      const double cost = (left.surface_area() * static_cast<double>(i) + right_cost[i]) / parent_area;
       if (cost < best.cost) best = {axis, i, cost};
     }
   }

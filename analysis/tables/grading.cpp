@@ -128,6 +128,10 @@ const std::vector<GradingColumn>& grading_columns() {
       count_column("any_differs", "ANY", "rays for which the any-hit query disagrees", &Grading::any_differs),
       count_column("threads_differ", "THREADS", "answers that depend on the number of threads",
                    &Grading::threads_differ),
+      {{"crossings_lost", "CROSS", "", "crossings that a strict optimizer's candidates lack", Style::whole},
+       [](const Row& row, const auto&) {
+         return counted(sum(row, [](const Grading& g) { return g.crossings_lost.value_or(0); }));
+       }},
       {{"leaks_per_1e9", "leaks", "/1e9", "misses of rays that cannot miss"},
        [](const Row& row, const auto&) { return leaks_per_billion(row); }},
       {{"leaks_per_1e9_upper", "below", "/1e9", "the rate of leaks is below this, at 95 %"},

@@ -4,6 +4,7 @@
 #include "analysis/statistics/rate.h"
 #include "analysis/tables/comparison.h"
 #include "analysis/tables/grading.h"
+#include "analysis/tests/find_cell.h"
 #include "analysis/work_precision/frontier.h"
 #include "analysis/work_precision/work_precision.h"
 
@@ -52,24 +53,17 @@ report::Report graded_report() {
   return report;
 }
 
-double number(const Table& table, const std::string& key, std::size_t row = 0) {
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    if (table.columns[i].key == key) return table.rows.at(row).at(i).number.value_or(-1);
-  ADD_FAILURE() << "no column " << key;
-  return -1;
-}
-
 TEST(GradingTables, HaveARowForAllSettingsOfACase) {
   const std::vector<Table> tables = grading_tables({graded_report()}, false);
   ASSERT_EQ(tables.size(), 1u);
   ASSERT_EQ(tables[0].rows.size(), 1u);
   EXPECT_EQ(tables[0].title, "closed_vertex, always_hit");
-  EXPECT_EQ(number(tables[0], "rays"), 2000);
-  EXPECT_EQ(number(tables[0], "exact_answers"), 180);
-  EXPECT_EQ(number(tables[0], "false_miss_answers"), 20);
-  EXPECT_EQ(number(tables[0], "leaks_per_1e9"), 3e9 / 2000);
-  EXPECT_EQ(number(tables[0], "ulps_of_t_max"), 9) << "the worst of the settings";
-  EXPECT_EQ(number(tables[0], "work_over_base"), 3) << "300 units of work a ray over 100";
+  EXPECT_EQ(number_in_row(tables[0], 0, "rays"), 2000);
+  EXPECT_EQ(number_in_row(tables[0], 0, "exact_answers"), 180);
+  EXPECT_EQ(number_in_row(tables[0], 0, "false_miss_answers"), 20);
+  EXPECT_EQ(number_in_row(tables[0], 0, "leaks_per_1e9"), 3e9 / 2000);
+  EXPECT_EQ(number_in_row(tables[0], 0, "ulps_of_t_max"), 9) << "the worst of the settings";
+  EXPECT_EQ(number_in_row(tables[0], 0, "work_over_base"), 3) << "300 units of work a ray over 100";
   EXPECT_THAT(tables[0].notes, ElementsAre("bvh_sah, watertight, level=3: given up after 20 crashes"));
 }
 
@@ -144,8 +138,8 @@ TEST(WorkPrecision, HasATableOverStiffnessForSeveralScenes) {
   report.measurements.back().scene = "soft", report.measurements.back().rays = "soft/r";
   const std::vector<Table> tables = work_precision_tables({report});
   ASSERT_EQ(tables.size(), 3u);
-  EXPECT_EQ(number(tables[2], "stiffness", 0), 3) << "from the least stiffness on";
-  EXPECT_EQ(number(tables[2], "stiffness", 1), 12);
+  EXPECT_EQ(number_in_row(tables[2], 0, "stiffness"), 3) << "from the least stiffness on";
+  EXPECT_EQ(number_in_row(tables[2], 1, "stiffness"), 12);
 }
 
 }  // namespace

@@ -9,14 +9,6 @@
 namespace rayshoot::analysis {
 
 namespace {
-
-std::uint64_t wrong_answers(const report::Errors& errors) {
-  std::uint64_t wrong = 0;
-  for (const auto& [name, count] : errors.answers)
-    if (name != "exact" && name != "ambiguous" && name != "near") wrong += count;
-  return wrong;
-}
-
 /// A float has 29 bits less than a double.
 double float_ulps(const report::Errors& errors, const std::string& scalar) {
   if (!errors.ulps_of_t) return 0;
@@ -27,7 +19,7 @@ std::optional<WorkPrecision> point_of(const Group& group, const Entry& entry) {
   const auto& errors = entry.measurement->errors;
   const std::optional<Estimate> time = time_per_ray(entry);
   if (!errors || errors->graded_rays == 0 || !time) return std::nullopt;
-  const std::uint64_t wrong = wrong_answers(*errors);
+  const std::uint64_t wrong = report::wrong_answers(*errors);
   return WorkPrecision{.label = entry.label + ", " + precision_of(group),
                        .entry = &entry,
                        .wrong_per_billion = *per_billion(wrong, errors->graded_rays),

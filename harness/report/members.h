@@ -209,6 +209,7 @@ void members(T& grading, Visitor& visitor) {
   visitor.required("changed", grading.changed);
   visitor.required("any_differs", grading.any_differs);
   visitor.required("threads_differ", grading.threads_differ);
+  visitor.optional("crossings_lost", grading.crossings_lost);
   visitor.optional("work", grading.work);
   visitor.required("most_steps", grading.most_steps);
   visitor.optional("message", grading.message);

@@ -134,6 +134,14 @@ struct Errors {
   std::optional<Ulps> ulps_of_t, ulps_of_point;
 };
 
+/// How many answers exact arithmetic refutes: of no class that a border or a few ulps excuse.
+inline std::uint64_t wrong_answers(const Errors& errors) {
+  std::uint64_t wrong = 0;
+  for (const auto& [name, count] : errors.answers)
+    if (name != "exact" && name != "ambiguous" && name != "near") wrong += count;
+  return wrong;
+}
+
 /// Trace times with a number of threads, one entry a repetition.
 struct ThreadTimes {
   int threads = 1;
@@ -196,6 +204,9 @@ struct Grading {
   std::uint64_t leaks = 0, forbidden_hits = 0, changed = 0;
   /// Graded rays for which the any-hit query, or tracing with more threads, says something else.
   std::uint64_t any_differs = 0, threads_differ = 0;
+  /// Crossings of graded rays with objects that were not among the strict optimizer's candidates; absent where they
+  /// were not looked for.
+  std::optional<std::uint64_t> crossings_lost;
   /// Work of the first rays, and the most steps that one of them took.
   std::optional<Work> work;
   std::uint64_t most_steps = 0;

@@ -34,7 +34,11 @@ class AlteredEngine final : public Engine<Real> {
   }
   std::vector<std::uint32_t> candidates(Query query, const Ray<Real>& ray,
                                         EngineScratch& scratch) const override {
-    return inner_->candidates(query, ray, scratch);
+    std::vector<std::uint32_t> all = inner_->candidates(query, ray, scratch);
+    Hit<Real> before, after;
+    inner_->closest({&ray, 1}, {&before, 1}, scratch), closest({&ray, 1}, {&after, 1}, scratch);
+    if (after.object != before.object) std::erase(all, before.object);
+    return all;
   }
   StructureStats structure() const override { return inner_->structure(); }
 

@@ -38,9 +38,10 @@ std::vector<report::Grading> gradings(TortureRequest request) {
 }
 
 std::string describe(const report::Grading& g) {
-  std::string text = fmt::format("{} {} {} {} {}: leaks {}, forbidden {}, changed {}, any {}, threads {}",
-                                 g.torture_case, g.setting, g.technique, g.scalar, g.intersector, g.leaks,
-                                 g.forbidden_hits, g.changed, g.any_differs, g.threads_differ);
+  std::string text =
+      fmt::format("{} {} {} {} {}: leaks {}, forbidden {}, changed {}, any {}, threads {}, crossings {}",
+                  g.torture_case, g.setting, g.technique, g.scalar, g.intersector, g.leaks, g.forbidden_hits,
+                  g.changed, g.any_differs, g.threads_differ, g.crossings_lost.value_or(0));
   for (const auto& [answer, count] : g.errors.answers) text += fmt::format(", {} {}", answer, count);
   return text + (g.message ? "; " + *g.message : "");
 }
@@ -183,6 +184,7 @@ TEST_F(Isolation, GivesUpARayThatNeverEnds) {
 TEST_F(Isolation, CountsLostHitsAsLeaksAndFalseMisses) {
   const Tally tally = run(altered(Lose()), 1000);
   EXPECT_GT(tally.leaks, 0u);
+  EXPECT_GT(tally.crossings_lost, 0u) << "what is not answered is no candidate of this technique";
   EXPECT_EQ(tally.rays, 1000u);
 }
 

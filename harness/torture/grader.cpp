@@ -10,6 +10,9 @@ namespace {
 /// A ray on which a technique spends more work than this, and as much again for every object, has lost its way.
 constexpr std::uint64_t kMostWork = 10'000, kMostWorkPerObject = 64;
 
+/// Object tests to spend on finding all crossings of the rays of a cell exhaustively.
+constexpr std::uint64_t kCrossingTests = 2'000'000;
+
 /// A technique built over a scene. Where the cell says so, building and tracing take denormal numbers as zero, and
 /// nothing else does.
 template <class Real>
@@ -89,6 +92,7 @@ class Grader {
       hold_to_itself(std::span(rays).first(graded), std::span(hits).first(graded), first, next);
       hold_to_oracle(std::span(rays).first(graded), std::span(hits).first(graded), next);
       count_work(std::span(rays).first(graded), next);
+      look_for_crossings(std::span(rays).first(graded), next);
     }
     next.rays = first + count;
     next.pulse = tally_.pulse + 1;
@@ -145,6 +149,21 @@ class Grader {
       tally.work += work;
       tally.most_steps = std::max(tally.most_steps, work.steps);
       tally.grades[AnswerClass::over_steps] += work.steps + work.object_tests + work.volume_tests > bound;
+    }
+  }
+
+  /// Every object that a ray crosses is among the candidates of the strict optimizer, equation (10): an algebra of
+  /// solids and the parity of crossings rest on that.
+  void look_for_crossings(std::span<const Ray<Real>> rays, Tally& tally) {
+    if (!stressed_.engine->countable()) return;
+    const Geometry<Real>& geometry = stressed_.geometry;
+    for (const Ray<Real>& ray : rays) {
+      if ((tally.crossed_rays + 1) * geometry.size() > kCrossingTests) return;
+      const auto candidates = stressed_.engine->candidates(Query::strict, ray, stressed_.scratch.local());
+      for (std::uint32_t object = 0; object < geometry.size(); ++object)
+        tally.crossings_lost += geometry.hit_distance(object, ray) != kMiss<Real> &&
+                                !std::binary_search(candidates.begin(), candidates.end(), object);
+      ++tally.crossed_rays, ++tally.pulse;
     }
   }
 

@@ -21,6 +21,8 @@ struct Tally {
 
   Grades grades;
   std::uint64_t leaks = 0, forbidden_hits = 0, changed = 0, any_differs = 0, threads_differ = 0;
+  /// Rays all of whose crossings were looked for, and crossings that were not found.
+  std::uint64_t crossed_rays = 0, crossings_lost = 0;
   Work work;
   std::uint64_t most_steps = 0;
   /// Why nothing was traced; a text that ends with zero.

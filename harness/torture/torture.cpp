@@ -69,6 +69,7 @@ report::Grading record(const TortureCell& cell, const Tally& tally) {
                           .threads_differ = tally.threads_differ,
                           .most_steps = tally.most_steps};
   if (cell.base()) grading.base = cell.base()->label;
+  if (tally.crossed_rays > 0) grading.crossings_lost = tally.crossings_lost;
   if (tally.work.rays > 0) grading.work = record(tally.work, cell.technique->entry->info.events);
   if (tally.message[0] != 0) grading.message = tally.message.data();
   return grading;
@@ -134,12 +135,9 @@ report::Report torture(const TorturePlan& plan, int processes, report::Run run, 
 }
 
 bool faulty(const report::Grading& grading) {
-  const auto& answers = grading.errors.answers;
-  const bool wrong = std::any_of(answers.begin(), answers.end(), [](const auto& answer) {
-    return answer.first != "exact" && answer.first != "ambiguous" && answer.first != "near";
-  });
-  return wrong || grading.leaks > 0 || grading.forbidden_hits > 0 || grading.changed > 0 ||
-         grading.any_differs > 0 || grading.threads_differ > 0;
+  return report::wrong_answers(grading.errors) > 0 || grading.leaks > 0 || grading.forbidden_hits > 0 ||
+         grading.changed > 0 || grading.any_differs > 0 || grading.threads_differ > 0 ||
+         grading.crossings_lost.value_or(0) > 0;
 }
 
 }  // namespace rayshoot

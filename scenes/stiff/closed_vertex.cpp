@@ -13,7 +13,6 @@
 //               bvh 15,610 and its robust form 8,850; a watertight test after Woop et al. none of 20,000.
 
 #include "scenes/stiff/parts/solids.h"
-#include "scenes/stiff/stiff_case.h"
 
 namespace rayshoot {
 
@@ -28,21 +27,11 @@ Ray<double> ray_to_vertex(const Solid& solid, const RandomNumbers& random, std::
 }
 
 std::vector<StiffSetting> settings(int size, std::uint64_t seed) {
-  std::vector<StiffSetting> result;
-  for (Solid& solid : solids(size, seed)) {
-    const auto scene = scene_of(solid.mesh, "closed_vertex(" + solid.name + ")");
-    const auto triangles = static_cast<double>(scene->size());
-    result.push_back({.label = solid.name,
-                      .scene = scene,
-                      .rays = ray_by_ray([solid](const RandomNumbers& random, std::uint64_t number) {
-                        return ray_to_vertex(solid, random, number);
-                      }),
-                      .property = Property::always_hit,
-                      .stiffness_parameter = triangles,
-                      .default_rays = 2000,
-                      .crossings_modulo_2 = 1});
-  }
-  return result;
+  return settings_inside_solids("closed_vertex", size, seed, [](const Solid& solid) -> RayMaker {
+    return [&solid](const RandomNumbers& random, std::uint64_t number) {
+      return ray_to_vertex(solid, random, number);
+    };
+  });
 }
 
 }  // namespace

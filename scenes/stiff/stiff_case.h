@@ -43,9 +43,6 @@ struct StiffSetting {
   double stiffness_parameter = 0;
   /// Number of rays of the short form; a form of size s asks for s times as many.
   std::uint64_t default_rays = 1000;
-  /// Where it is known: how often a ray crosses the surfaces of the scene behind its origin, modulo 2. A vertex or
-  /// an edge that several triangles share is one crossing; solids that share a wall cross it once each.
-  std::optional<int> crossings_modulo_2;
 };
 
 /// One entry of the suite STIFF: one file scenes/stiff/<id>.cpp defines one, as `stiff_<id>()`.

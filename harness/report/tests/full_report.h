@@ -96,6 +96,7 @@ inline report::Report full_report() {
        .changed = 3,
        .any_differs = 4,
        .threads_differ = 5,
+       .crossings_lost = 6,
        .work = report::Work{30, 120, 100, 60, 90, 80, 20, 10},
        .most_steps = 17,
        .message = "given up after 20 crashes"}};

@@ -179,4 +179,23 @@ std::vector<Solid> solids(int size, std::uint64_t seed) {
   return result;
 }
 
+std::vector<StiffSetting> settings_inside_solids(const std::string& id, int size, std::uint64_t seed,
+                                                 const std::function<RayMaker(const Solid&)>& rays_in) {
+  std::vector<StiffSetting> settings;
+  for (Solid& made : solids(size, seed)) {
+    const auto solid = std::make_shared<const Solid>(std::move(made));
+    const auto scene = scene_of(solid->mesh, id + "(" + solid->name + ")");
+    settings.push_back({.label = solid->name,
+                        .scene = scene,
+                        .rays = ray_by_ray([solid, ray = rays_in(*solid)](const RandomNumbers& random,
+                                                                          std::uint64_t number) {
+                          return ray(random, number);
+                        }),
+                        .property = Property::always_hit,
+                        .stiffness_parameter = static_cast<double>(scene->size()),
+                        .default_rays = 2000});
+  }
+  return settings;
+}
+
 }  // namespace rayshoot::stiff

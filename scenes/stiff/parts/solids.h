@@ -7,6 +7,7 @@
 #include "scenes/core/triangle_mesh.h"
 #include "scenes/io/subdivide.h"
 #include "scenes/stiff/parts/rays.h"
+#include "scenes/stiff/stiff_case.h"
 
 namespace rayshoot::stiff {
 
@@ -44,5 +45,9 @@ Vec3d point_inside(const Solid& solid, const RandomNumbers& random, std::uint64_
 
 /// The closed meshes of the short form, and of larger forms: icospheres, a tetrahedron, a ring, random solids.
 std::vector<Solid> solids(int size, std::uint64_t seed);
+/// A setting of the case `id` for each of these solids, with rays from inside, all of which hit. `rays_in` makes rays for
+/// a solid, which outlives them.
+std::vector<StiffSetting> settings_inside_solids(const std::string& id, int size, std::uint64_t seed,
+                                                 const std::function<RayMaker(const Solid&)>& rays_in);
 
 }  // namespace rayshoot::stiff
