@@ -26,7 +26,8 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
   using Real = typename A::Scalar;
 
   explicit TechniqueEngine(const EngineInput<Real>& input)
-      : technique_(A::build({input.geometry}, A::configure(input.arguments))), geometry_(&input.geometry) {
+      : technique_(A::build({input.geometry, input.sample}, A::configure(input.arguments))),
+        geometry_(&input.geometry) {
     if constexpr (OrdersObjects<A>) {
       arranged_.emplace(geometry_->arranged(technique_.order()));
       geometry_ = &*arranged_;

@@ -68,6 +68,7 @@ struct EngineInput {
   const Arguments& arguments;
   /// Given to techniques with `needs_recorded_hits` alone.
   const RecordedHits<Real>* recorded = nullptr;
+  RaySample<Real> sample{};
 };
 
 /// A technique in the registry. One file accel/<family>/<id>.cpp defines one, as `technique_<id>()`.

@@ -36,10 +36,20 @@ struct TechniqueInfo {
   bool baseline = false;
 };
 
+/// Rays like those that will be traced, for techniques that look at some of them before they build; none where
+/// nobody knows what will be traced. They live as long as the build.
+template <class Real>
+struct RaySample {
+  std::span<const Ray<Real>> rays{};
+  /// So many rays each of them stands for.
+  double rays_each = 1;
+};
+
 /// What a technique is built from. The geometry outlives the technique.
 template <class Real>
 struct BuildInput {
   const Geometry<Real>& geometry;
+  RaySample<Real> sample{};
 };
 
 /// Size and shape of what was built.

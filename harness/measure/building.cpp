@@ -30,26 +30,27 @@ namespace {
 
 template <class Real>
 std::unique_ptr<Engine<Real>> build(const TechniqueChoice& technique, const Geometry<Real>& geometry,
-                                    const RecordedHits<Real>* recorded) {
-  return technique.entry->template build<Real>({geometry, technique.arguments, recorded});
+                                    const RecordedHits<Real>* recorded, const RaySample<Real>& sample) {
+  return technique.entry->template build<Real>({geometry, technique.arguments, recorded, sample});
 }
 
 }  // namespace
 
 template <class Real>
 Built<Real> build_once(const TechniqueChoice& technique, const Geometry<Real>& geometry,
-                       const RecordedHits<Real>* recorded) {
+                       const RecordedHits<Real>* recorded, const RaySample<Real>& sample) {
   Built<Real> built{.choice = &technique};
-  const double seconds = seconds_of(
-      [&] { built.failure = failure_of([&] { built.engine = build(technique, geometry, recorded); }); });
+  const double seconds = seconds_of([&] {
+    built.failure = failure_of([&] { built.engine = build(technique, geometry, recorded, sample); });
+  });
   if (built.engine) built.build_ns.push_back(seconds * 1e9);
   return built;
 }
 
 template <class Real>
 void repeat_builds(std::vector<Built<Real>>& built, const Geometry<Real>& geometry,
-                   const RecordedHits<Real>* recorded, int repetitions, double seconds,
-                   const std::function<bool()>& stopped) {
+                   const RecordedHits<Real>* recorded, const RaySample<Real>& sample, int repetitions,
+                   double seconds, const std::function<bool()>& stopped) {
   std::vector<Built<Real>*> repeated;
   std::vector<TimedPass> builds;
   std::unique_ptr<Engine<Real>> engine;
@@ -58,7 +59,7 @@ void repeat_builds(std::vector<Built<Real>>& built, const Geometry<Real>& geomet
     const int in_all = affordable_repetitions(seconds, one.build_ns.front() * 1e-9, repetitions);
     if (in_all < 2) continue;
     repeated.push_back(&one);
-    builds.push_back({.pass = [&] { engine = build(*one.choice, geometry, recorded); },
+    builds.push_back({.pass = [&] { engine = build(*one.choice, geometry, recorded, sample); },
                       .tidy_up = [&] { engine.reset(); },
                       .repetitions = in_all - 1});
   }
@@ -67,12 +68,32 @@ void repeat_builds(std::vector<Built<Real>>& built, const Geometry<Real>& geomet
     repeated[i]->build_ns.insert(repeated[i]->build_ns.end(), times[i].begin(), times[i].end());
 }
 
-template Built<float> build_once(const TechniqueChoice&, const Geometry<float>&, const RecordedHits<float>*);
-template Built<double> build_once(const TechniqueChoice&, const Geometry<double>&,
-                                  const RecordedHits<double>*);
-template void repeat_builds(std::vector<Built<float>>&, const Geometry<float>&, const RecordedHits<float>*,
-                            int, double, const std::function<bool()>&);
-template void repeat_builds(std::vector<Built<double>>&, const Geometry<double>&, const RecordedHits<double>*,
-                            int, double, const std::function<bool()>&);
+template <class Real>
+std::vector<Ray<Real>> sampled(const std::vector<const RaySet*>& sets) {
+  std::size_t rays = 0;
+  for (const RaySet* set : sets) rays += set->rays.size();
+  const std::size_t stride = std::max(kRaysPerSampleRay, rays / kMostSampleRays + 1);
+
+  std::vector<Ray<Real>> sample;
+  std::size_t skip = stride / 2;
+  for (const RaySet* set : sets) {
+    for (; skip < set->rays.size(); skip += stride) {
+      const Ray<double>& ray = set->rays[skip];
+      sample.push_back({Vec3<Real>(ray.origin), static_cast<Real>(ray.t_min), Vec3<Real>(ray.direction),
+                        static_cast<Real>(std::min<double>(ray.t_max, std::numeric_limits<Real>::max()))});
+    }
+    skip -= set->rays.size();
+  }
+  return sample;
+}
+
+#define RAYSHOOT_BUILDING(REAL)                                                                             \
+  template Built<REAL> build_once(const TechniqueChoice&, const Geometry<REAL>&, const RecordedHits<REAL>*, \
+                                  const RaySample<REAL>&);                                                  \
+  template void repeat_builds(std::vector<Built<REAL>>&, const Geometry<REAL>&, const RecordedHits<REAL>*,  \
+                              const RaySample<REAL>&, int, double, const std::function<bool()>&);           \
+  template std::vector<Ray<REAL>> sampled(const std::vector<const RaySet*>&);
+RAYSHOOT_BUILDING(float)
+RAYSHOOT_BUILDING(double)
 
 }  // namespace rayshoot

@@ -54,6 +54,7 @@ class Group {
         all_threads_(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
         geometry_(input.scene, input.cone_sides, intersector_named(input.intersector)) {
     record_set_aside(report.scenes.back());
+    take_sample();
   }
 
   /// Build what all rays share, then measure rays after rays.
@@ -70,6 +71,18 @@ class Group {
   }
 
  private:
+  /// Structures are built once for all ray sets, so the sample is of them all.
+  void take_sample() {
+    std::vector<const RaySet*> sets;
+    double rays = 0;
+    for (const PreparedRays* prepared : input_.rays) {
+      sets.push_back(&prepared->set);
+      rays += static_cast<double>(prepared->set.rays.size());
+    }
+    sample_rays_ = sampled<Real>(sets);
+    sample_ = {sample_rays_, rays / std::max(1.0, static_cast<double>(sample_rays_.size()))};
+  }
+
   /// Objects by the reason for which they are not traced: the most that any precision has.
   void record_set_aside(report::Scene& scene) const {
     std::map<std::string, std::uint64_t> counts;
@@ -94,10 +107,10 @@ class Group {
     for (const TechniqueChoice& technique : input_.plan.techniques) {
       if (stopped_() || !choose(technique)) continue;
       announce("building " + technique.spec);
-      built.push_back(build_once(technique, geometry_, recorded));
+      built.push_back(build_once(technique, geometry_, recorded, sample_));
     }
     if (!suite_.counts_only)
-      repeat_builds(built, geometry_, recorded, suite_.repetitions, suite_.build_seconds, stopped_);
+      repeat_builds(built, geometry_, recorded, sample_, suite_.repetitions, suite_.build_seconds, stopped_);
     return built;
   }
 
@@ -248,6 +261,8 @@ class Group {
   const std::function<bool()>& stopped_;
   int all_threads_;
   Geometry<Real> geometry_;
+  std::vector<Ray<Real>> sample_rays_;
+  RaySample<Real> sample_;
   std::optional<ExactOracle<Real>> exact_;
 };
 
