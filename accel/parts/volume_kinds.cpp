@@ -1,0 +1,263 @@
+#include "accel/parts/volume_kinds.h"
+
+#include <numbers>
+
+namespace rayshoot {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// Corners of the polygon about an end circle of a cone.
+constexpr int kCircleCorners = 16;
+
+/// Volumes are computed with so many roundings at the most that this part of their size and place covers them.
+constexpr double kFitError = 64 * std::numeric_limits<double>::epsilon();
+
+std::array<Vec3d, 3> coordinate_axes() { return {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}; }
+
+/// The balls' extent along three axes, from a point.
+Box<double> extent_along(std::span<const SurfaceBall> balls, const std::array<Vec3d, 3>& axes,
+                         const Vec3d& from) {
+  Box<double> extent;
+  for (const SurfaceBall& ball : balls) {
+    const Vec3d offset = ball.centre - from;
+    const Vec3d at{dot(offset, axes[0]), dot(offset, axes[1]), dot(offset, axes[2])};
+    const Vec3d radius{ball.radius, ball.radius, ball.radius};
+    extent.include(Box<double>{at - radius, at + radius});
+  }
+  return extent;
+}
+
+Vec3d mean_of(std::span<const SurfaceBall> balls) {
+  Vec3d sum{};
+  const double weight = 1 / static_cast<double>(balls.size());
+  for (const SurfaceBall& ball : balls) sum += ball.centre * weight;
+  return sum;
+}
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+/// The covariance of the centres, in units of their largest distance from the mean along an axis.
+Matrix covariance(std::span<const SurfaceBall> balls, const Vec3d& mean) {
+  double largest = 0;
+  for (const SurfaceBall& ball : balls) largest = std::max(largest, max_abs(ball.centre - mean));
+  Matrix matrix{};
+  if (!(largest > 0) || !std::isfinite(1 / largest)) return matrix;
+  for (const SurfaceBall& ball : balls) {
+    const Vec3d p = (ball.centre - mean) * (1 / largest);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) matrix[i][j] += p[i] * p[j];
+  }
+  return matrix;
+}
+
+/// The eigenvectors of a symmetric matrix by Jacobi's rotations.
+std::array<Vec3d, 3> eigenvectors(Matrix m) {
+  std::array<Vec3d, 3> vectors = coordinate_axes();
+  for (int sweep = 0; sweep < 12; ++sweep)
+    for (int p = 0; p < 2; ++p)
+      for (int q = p + 1; q < 3; ++q) {
+        if (std::abs(m[p][q]) <= 1e-15 * (std::abs(m[p][p]) + std::abs(m[q][q]))) continue;
+        const double angle = 0.5 * std::atan2(2 * m[p][q], m[q][q] - m[p][p]);
+        const double c = std::cos(angle), s = std::sin(angle);
+        for (int k = 0; k < 3; ++k) {
+          const double a = m[k][p], b = m[k][q];
+          m[k][p] = c * a - s * b, m[k][q] = s * a + c * b;
+        }
+        for (int k = 0; k < 3; ++k) {
+          const double a = m[p][k], b = m[q][k];
+          m[p][k] = c * a - s * b, m[q][k] = s * a + c * b;
+        }
+        const Vec3d a = vectors[p], b = vectors[q];
+        vectors[p] = a * c - b * s, vectors[q] = a * s + b * c;
+      }
+  const Vec3d first = normalized(vectors[0]), third = normalized(cross(first, vectors[1]));
+  return {first, cross(third, first), third};
+}
+
+/// By how much to grow a volume that reaches so far from the coordinates' origin.
+double fit_margin(const Vec3d& centre, double reach) { return kFitError * (max_abs(centre) + reach); }
+
+template <class Real>
+Volume<Real> fit_axis_box(const Box<Real>& bounds) {
+  return {.kind = VolumeKind::axis_box, .place = {Vec3d(bounds.lo), Vec3d(bounds.hi)}};
+}
+
+/// The smallest sphere about that centre.
+template <class Real>
+Volume<Real> sphere_about(std::span<const SurfaceBall> balls, const Vec3d& centre) {
+  double radius = 0;
+  for (const SurfaceBall& ball : balls) radius = std::max(radius, length(ball.centre - centre) + ball.radius);
+  return {.kind = VolumeKind::sphere, .place = {centre, {radius + fit_margin(centre, radius), 0, 0}}};
+}
+
+template <class Real>
+Volume<Real> fit_sphere(std::span<const SurfaceBall> balls, const Vec3d& mean) {
+  const Box<double> extent = extent_along(balls, coordinate_axes(), mean);
+  const Volume<Real> about_middle = sphere_about<Real>(balls, mean + extent.centre());
+  const Volume<Real> about_mean = sphere_about<Real>(balls, mean);
+  return about_middle.half().x <= about_mean.half().x ? about_middle : about_mean;
+}
+
+/// The point at coordinates `at` of a frame.
+Vec3d from_frame(const std::array<Vec3d, 3>& axes, const Vec3d& origin, const Vec3d& at) {
+  return origin + axes[0] * at.x + axes[1] * at.y + axes[2] * at.z;
+}
+
+template <class Real>
+Volume<Real> fit_oriented_box(std::span<const SurfaceBall> balls, const std::array<Vec3d, 3>& axes,
+                              const Vec3d& mean) {
+  const Vec3d centre = from_frame(axes, mean, extent_along(balls, axes, mean).centre());
+  const Box<double> extent = extent_along(balls, axes, centre);
+  const Vec3d reach = max(-extent.lo, extent.hi);
+  const double margin = fit_margin(centre, max_abs(reach));
+  return {.kind = VolumeKind::oriented_box,
+          .place = {centre, reach + Vec3d{margin, margin, margin}},
+          .axes = axes};
+}
+
+/// The smallest cylinder about the line through the middle of an oriented box along one of its axes.
+template <class Real>
+Volume<Real> cylinder_along(std::span<const SurfaceBall> balls, const Volume<Real>& box, int along) {
+  const Vec3d& axis = box.axes[along];
+  double radius = 0;
+  for (const SurfaceBall& ball : balls) {
+    const Vec3d offset = ball.centre - box.centre();
+    radius = std::max(radius, length(offset - axis * dot(offset, axis)) + ball.radius);
+  }
+  const double margin = fit_margin(box.centre(), radius + max_abs(box.half()));
+  return {.kind = VolumeKind::cylinder,
+          .place = {box.centre(), {box.half()[along], radius + margin, radius + margin}},
+          .axes = {axis, box.axes[(along + 1) % 3], box.axes[(along + 2) % 3]}};
+}
+
+template <class Real>
+Volume<Real> fit_cylinder(std::span<const SurfaceBall> balls, const Volume<Real>& box) {
+  Volume<Real> best = cylinder_along(balls, box, 0);
+  for (const int along : {1, 2}) {
+    const Volume<Real> other = cylinder_along(balls, box, along);
+    if (other.surface_area() < best.surface_area()) best = other;
+  }
+  return best;
+}
+
+void append_corners(const Box<double>& box, std::vector<SurfaceBall>& balls) {
+  for (int corner = 0; corner < 8; ++corner)
+    balls.push_back({{corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                      corner & 4 ? box.hi.z : box.lo.z}});
+}
+
+/// The corners of a regular polygon about a circle across a unit axis.
+void append_circle(const Vec3d& centre, double radius, const Vec3d& axis, std::vector<SurfaceBall>& balls) {
+  if (radius == 0) return balls.push_back({centre});
+  const Vec3d u = normalized(cross(std::abs(axis.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}, axis));
+  const Vec3d v = cross(axis, u);
+  const double to_corner = radius / std::cos(kPi / kCircleCorners);
+  for (int k = 0; k < kCircleCorners; ++k) {
+    const double angle = 2 * kPi * k / kCircleCorners;
+    balls.push_back({centre + (u * std::cos(angle) + v * std::sin(angle)) * to_corner});
+  }
+}
+
+/// Whether all vertices lie in the plane in which the polygon is hit.
+template <class Real>
+bool is_planar(const Polygon<Real>& polygon, std::span<const Vec3<Real>> vertices) {
+  const Vec3d first(vertices.front());
+  double farthest = 0, largest = 0;
+  for (const Vec3<Real>& vertex : vertices) {
+    farthest = std::max(farthest, std::abs(dot(polygon.normal, Vec3d(vertex) - first)));
+    largest = std::max(largest, max_abs(Vec3d(vertex) - first));
+  }
+  return farthest <= static_cast<double>(padding(static_cast<Real>(largest), 4)) * length(polygon.normal);
+}
+
+}  // namespace
+
+template <class Real>
+double Volume<Real>::surface_area() const {
+  switch (kind) {
+    case VolumeKind::axis_box:
+      return Box<double>{place[0], place[1]}.surface_area();
+    case VolumeKind::sphere:
+      return 4 * kPi * half().x * half().x;
+    case VolumeKind::oriented_box:
+      return 8 * (half().x * half().y + half().y * half().z + half().z * half().x);
+    case VolumeKind::cylinder:
+      return 2 * kPi * half().y * (half().y + 2 * half().x);
+  }
+  return 0;
+}
+
+template <class Real>
+void append_surface(const Geometry<Real>& geometry, std::uint32_t object, std::vector<SurfaceBall>& balls) {
+  switch (geometry.kind(object)) {
+    case ObjectKind::triangle: {
+      const Triangle<Real>& triangle = geometry.triangle(object);
+      for (const Vec3<Real>& vertex : {triangle.a, triangle.b, triangle.c}) balls.push_back({Vec3d(vertex)});
+      return;
+    }
+    case ObjectKind::sphere: {
+      const Sphere<Real>& sphere = geometry.sphere(object);
+      return balls.push_back({Vec3d(sphere.centre), sphere.radius});
+    }
+    case ObjectKind::cone: {
+      const Cone<Real>& cone = geometry.cone(object);
+      const Vec3d axis = normalized(Vec3d(cone.apex) - Vec3d(cone.base));
+      append_circle(Vec3d(cone.base), cone.base_radius, axis, balls);
+      return append_circle(Vec3d(cone.apex), cone.apex_radius, axis, balls);
+    }
+    case ObjectKind::polygon:
+      break;
+  }
+  const Polygon<Real>& polygon = geometry.polygon(object);
+  const std::span<const Vec3<Real>> vertices = geometry.polygon_vertices(object);
+  if (!is_planar(polygon, vertices))
+    return append_corners({Vec3d(polygon.box.lo), Vec3d(polygon.box.hi)}, balls);
+  for (const Vec3<Real>& vertex : vertices) balls.push_back({Vec3d(vertex)});
+}
+
+std::array<Vec3d, 3> box_axes(std::span<const SurfaceBall> balls) {
+  const Vec3d mean = mean_of(balls);
+  const std::array<Vec3d, 3> principal = eigenvectors(covariance(balls, mean));
+  const double turned = extent_along(balls, principal, mean).surface_area();
+  return turned < extent_along(balls, coordinate_axes(), mean).surface_area() ? principal : coordinate_axes();
+}
+
+template <class Real>
+std::array<Volume<Real>, 4> bounding_volumes(std::span<const SurfaceBall> balls, const Box<Real>& bounds) {
+  const Vec3d mean = mean_of(balls);
+  const Volume<Real> box = fit_oriented_box<Real>(balls, box_axes(balls), mean);
+  return {fit_sphere<Real>(balls, mean), fit_axis_box(bounds), box, fit_cylinder(balls, box)};
+}
+
+template <class Real>
+std::array<Volume<Real>, 4> bounding_volumes(const Geometry<Real>& geometry,
+                                             std::span<const std::uint32_t> objects) {
+  std::vector<SurfaceBall> balls;
+  Box<Real> bounds;
+  for (const std::uint32_t object : objects) {
+    append_surface(geometry, object, balls);
+    bounds.include(geometry.bounds(object));
+  }
+  return bounding_volumes(std::span<const SurfaceBall>(balls), bounds);
+}
+
+template <class Real>
+const Volume<Real>& cheapest_volume(std::span<const Volume<Real>> volumes) {
+  return *std::min_element(volumes.begin(), volumes.end(), [](const auto& a, const auto& b) {
+    return a.projected_area() * a.relative_cost() < b.projected_area() * b.relative_cost();
+  });
+}
+
+#define RAYSHOOT_INSTANTIATE(REAL)                                                                       \
+  template struct Volume<REAL>;                                                                          \
+  template void append_surface(const Geometry<REAL>&, std::uint32_t, std::vector<SurfaceBall>&);         \
+  template std::array<Volume<REAL>, 4> bounding_volumes(std::span<const SurfaceBall>, const Box<REAL>&); \
+  template std::array<Volume<REAL>, 4> bounding_volumes(const Geometry<REAL>&,                           \
+                                                        std::span<const std::uint32_t>);                 \
+  template const Volume<REAL>& cheapest_volume(std::span<const Volume<REAL>>);
+
+RAYSHOOT_INSTANTIATE(float)
+RAYSHOOT_INSTANTIATE(double)
+
+}  // namespace rayshoot
