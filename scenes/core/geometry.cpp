@@ -60,6 +60,14 @@ Geometry<Real>::Geometry(const Scene& scene, ConeSides cone_sides, Intersector i
     if (!reason.empty()) set_aside_.push_back({object, reason});
   }
   for (std::uint32_t object = 0; object < size(); ++object) bounds_.include(bounds(object));
+
+  // Renumber the groups by how many objects stand before each scene object.
+  const auto renumbered = [this](std::uint32_t scene_object) {
+    const auto found = std::lower_bound(scene_objects_.begin(), scene_objects_.end(), scene_object);
+    return static_cast<std::uint32_t>(found - scene_objects_.begin());
+  };
+  for (const Group& group : scene.groups)
+    groups_.push_back({renumbered(group.first), renumbered(group.last), group.end});
 }
 
 template <class Real>
@@ -151,7 +159,7 @@ template <class Real>
 std::size_t Geometry<Real>::bytes() const {
   const auto size_of = [](const auto& objects) { return objects.size() * sizeof(objects[0]); };
   return size_of(references_) + size_of(scene_objects_) + size_of(triangles_) + size_of(spheres_) +
-         size_of(cones_) + size_of(polygons_) + size_of(vertices_);
+         size_of(cones_) + size_of(polygons_) + size_of(vertices_) + size_of(groups_);
 }
 
 template <class Real>

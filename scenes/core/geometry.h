@@ -85,6 +85,9 @@ class Geometry {
   const Cone<Real>& cone(std::uint32_t object) const { return cones_[index(object)]; }
   const Polygon<Real>& polygon(std::uint32_t object) const { return polygons_[index(object)]; }
   std::span<const Vec3<Real>> polygon_vertices(std::uint32_t object) const;
+  /// The modeller's hierarchy of these objects, as `Scene::groups`; a group all of whose objects were set aside is
+  /// empty. None where the scene states none, or the objects were arranged in another order.
+  std::span<const Group> groups() const { return groups_; }
   ConeSides cone_sides() const { return cone_sides_; }
   Intersector intersector() const { return intersector_; }
 
@@ -92,7 +95,7 @@ class Geometry {
   std::size_t bytes() const;
 
   /// The same objects in another order: object i of the result is object `order[i]` of this geometry. Objects
-  /// of a kind lie in memory in that order.
+  /// of a kind lie in memory in that order. Groups, which are ranges of objects, are not kept.
   Geometry arranged(std::span<const std::uint32_t> order) const;
 
  private:
@@ -119,6 +122,7 @@ class Geometry {
   std::vector<Cone<Real>> cones_;
   std::vector<Polygon<Real>> polygons_;
   std::vector<Vec3<Real>> vertices_;
+  std::vector<Group> groups_;
   Box<Real> bounds_;
   ConeSides cone_sides_ = ConeSides::both;
   Intersector intersector_ = Intersector::fast;

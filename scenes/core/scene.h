@@ -66,6 +66,16 @@ struct VertexRange {
   friend bool operator==(const VertexRange&, const VertexRange&) = default;
 };
 
+/// Objects [first, last) that the modeller keeps together. Groups stand in the order in which they begin: those nested
+/// in group i are the groups i + 1 to end - 1.
+struct Group {
+  std::uint32_t first = 0, last = 0;
+  std::uint32_t end = 0;
+
+  std::uint32_t size() const { return last - first; }
+  friend bool operator==(const Group&, const Group&) = default;
+};
+
 /// Everything a file says about a scene, in double precision. Objects keep their order; each refers to one of
 /// the arrays below it.
 struct Scene {
@@ -84,6 +94,9 @@ struct Scene {
   std::vector<Cone<double>> cones;
   /// Vertex normals of smooth objects, as given: not necessarily of unit length.
   std::vector<Vec3d> vertex_normals;
+  /// The modeller's hierarchy, whose first group is the whole scene; none where the modeller stated none, as in a file.
+  /// No part of a scene's content: files do not hold it.
+  std::vector<Group> groups;
 
   std::size_t size() const { return objects.size(); }
 

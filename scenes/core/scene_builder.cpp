@@ -1,5 +1,6 @@
 #include "scenes/core/scene_builder.h"
 
+#include <memory>
 #include <numbers>
 
 namespace rayshoot {
@@ -26,9 +27,55 @@ void add_again(SceneBuilder& builder, const Scene& scene, std::uint32_t object) 
   builder.polygon(vertices, {scene.vertex_normals.data() + entry.first_normal, vertices.size()});
 }
 
+/// Opens and closes the groups of a scene while its objects are given to a builder again.
+class GroupsAgain {
+ public:
+  GroupsAgain(const Scene& scene, SceneBuilder& builder) : groups_(scene.groups), builder_(builder) {}
+
+  void before(std::uint32_t object) {
+    for (; next_ < groups_.size() && groups_[next_].first == object; ++next_) {
+      open_.push_back(std::make_unique<SceneBuilder::GroupScope>(builder_));
+      last_.push_back(groups_[next_].last);
+    }
+  }
+  void behind(std::uint32_t object) {
+    for (; !open_.empty() && last_.back() == object + 1; last_.pop_back()) open_.pop_back();
+  }
+
+ private:
+  std::span<const Group> groups_;
+  SceneBuilder& builder_;
+  /// The first group is the whole scene, which the builder adds itself.
+  std::size_t next_ = 1;
+  std::vector<std::unique_ptr<SceneBuilder::GroupScope>> open_;
+  std::vector<std::uint32_t> last_;
+};
+
 }  // namespace
 
 SceneBuilder::SceneBuilder(const SceneOptions& options) : options_(options) {}
+
+void SceneBuilder::open_group() {
+  if (scene_.groups.empty()) scene_.groups.emplace_back();
+  open_groups_.push_back(static_cast<std::uint32_t>(scene_.groups.size()));
+  scene_.groups.push_back({.first = static_cast<std::uint32_t>(scene_.size())});
+}
+
+/// A group without objects is none.
+void SceneBuilder::close_group() {
+  Group& group = scene_.groups[open_groups_.back()];
+  group.last = static_cast<std::uint32_t>(scene_.size());
+  group.end = static_cast<std::uint32_t>(scene_.groups.size());
+  if (group.size() == 0) scene_.groups.pop_back();
+  open_groups_.pop_back();
+}
+
+Scene SceneBuilder::finish() && {
+  if (!scene_.groups.empty())
+    scene_.groups.front() = {0, static_cast<std::uint32_t>(scene_.size()),
+                             static_cast<std::uint32_t>(scene_.groups.size())};
+  return std::move(scene_);
+}
 
 void SceneBuilder::add_object(ObjectKind kind, std::size_t index, std::uint32_t first_normal) {
   if (scene_.materials.empty()) scene_.materials.emplace_back();
@@ -80,6 +127,7 @@ void SceneBuilder::placed_patch(const std::array<Vec3d, 3>& vertices, const std:
 /// A grid on one face of a cube, blown up to the sphere, serves all six faces: it is turned in place before
 /// each.
 void SceneBuilder::tessellate_sphere(const Vec3d& centre, double radius) {
+  const GroupScope together = group();
   const int cells = options_.tessellation;
   std::vector<std::vector<Vec3d>> grid(cells + 1, std::vector<Vec3d>(cells + 1));
   for (int u = 0; u <= cells; ++u)
@@ -105,6 +153,7 @@ void SceneBuilder::tessellate_sphere(const Vec3d& centre, double radius) {
 }
 
 void SceneBuilder::tessellate_cone(const Cone<double>& cone) {
+  const GroupScope together = group();
   const Vec3d span = cone.apex - cone.base;
   const double height = length(span);
   const Vec3d axis = span * (1 / height);
@@ -141,11 +190,14 @@ Scene tessellated(const Scene& scene, int tessellation) {
   builder.background(scene.background);
   builder.view(scene.view);
   for (const Light& light : scene.lights) builder.light(light.position, light.colour);
+  GroupsAgain groups(scene, builder);
   for (std::uint32_t object = 0; object < scene.size(); ++object) {
+    groups.before(object);
     const std::uint32_t material = scene.objects[object].material;
     if (object == 0 || material != scene.objects[object - 1].material)
       builder.material(scene.materials[material]);
     add_again(builder, scene, object);
+    groups.behind(object);
   }
   Scene result = std::move(builder).finish();
   result.id = scene.id;

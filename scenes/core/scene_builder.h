@@ -49,9 +49,24 @@ class SceneBuilder {
   /// Replace the tessellation asked for; only jacks does.
   void override_tessellation(int resolution) { options_.tessellation = resolution; }
 
-  Scene finish() && { return std::move(scene_); }
+  /// Keeps what is emitted during its life together as a group; a tessellated sphere or cone is one by itself.
+  class GroupScope {
+   public:
+    explicit GroupScope(SceneBuilder& builder) : builder_(builder) { builder_.open_group(); }
+    ~GroupScope() { builder_.close_group(); }
+    GroupScope(const GroupScope&) = delete;
+    GroupScope& operator=(const GroupScope&) = delete;
+
+   private:
+    SceneBuilder& builder_;
+  };
+  [[nodiscard]] GroupScope group() { return GroupScope(*this); }
+
+  Scene finish() &&;
 
  private:
+  void open_group();
+  void close_group();
   void add_object(ObjectKind kind, std::size_t index, std::uint32_t first_normal = kNoObject);
   void placed_patch(const std::array<Vec3d, 3>& vertices, const std::array<Vec3d, 3>& normals);
   void tessellate_sphere(const Vec3d& centre, double radius);
@@ -61,6 +76,8 @@ class SceneBuilder {
   Affine frame_;
   double scale_ = 1;
   Scene scene_;
+  /// The groups that are open, outermost first.
+  std::vector<std::uint32_t> open_groups_;
 };
 
 /// The same scene with every sphere and cone replaced by the triangles that SPD's resolution `tessellation`

@@ -74,6 +74,7 @@ Vec3d house(double u, double v) {
 }
 
 void shell(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   sculptor.material(kPaint);
   sculptor.closed_sheet({24, 40}, body);
   const auto roof = [](double u, double v) { return house(u, 1 + v); };
@@ -86,6 +87,7 @@ void shell(Sculptor& sculptor) {
 }
 
 void trim(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   sculptor.material(kChrome);
   for (const double end : {-1.0, 1.0}) {
     const auto bumper = [=](double v) {
@@ -130,6 +132,7 @@ void trim(Sculptor& sculptor) {
 }
 
 void wheel(Sculptor& sculptor, double x, double side) {
+  const auto together = sculptor.part();
   const Affine frame = jevans::frame_along({x, kTrack * side, kWheel}, {0, side, 0});
   sculptor.material(kRubber);
   sculptor.sheet({24, 8, Seam::both}, [=](double u, double v) {
@@ -166,6 +169,7 @@ void wheel(Sculptor& sculptor, double x, double side) {
 }
 
 void engine(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   const Vec3d centre{1.35, 0, 0.5};
   sculptor.material(kIron);
   sculptor.closed_sheet({8, 6}, rounded_box(translation(centre), {0.35, 0.2, 0.13}, 0.3));
@@ -198,6 +202,7 @@ void engine(Sculptor& sculptor) {
 }
 
 void cabin(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   sculptor.material(kLeather);
   const auto upright = [](const Vec3d& at) { return compose(translation(at), rotation({0, 1, 0}, -0.25)); };
   for (const double side : {-1.0, 1.0}) {
@@ -220,6 +225,7 @@ void cabin(Sculptor& sculptor) {
 }
 
 void road(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   const auto lie = [&](double x, double y, double half_length, double half_width, double z) {
     sculptor.polygon(
         std::array{Vec3d{x - half_length, y - half_width, z}, Vec3d{x + half_length, y - half_width, z},

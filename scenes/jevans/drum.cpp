@@ -26,6 +26,7 @@ const Material kBlack{{0.08, 0.08, 0.09}, 0.8, 0.1, 20, 0, 1};
 /// A drum about the z axis of `frame`, centred at its origin: shell, two heads, two rims, and around them lugs with
 /// tension rods.
 void drum(Sculptor& sculptor, const Affine& frame, double radius, double depth, int lugs) {
+  const auto together = sculptor.part();
   const double half = depth / 2;
   sculptor.material(kLacquer);
   const auto shell = jevans::revolved(frame, [=](double v) { return std::pair{radius, depth * (v - 0.5)}; });
@@ -49,6 +50,7 @@ void drum(Sculptor& sculptor, const Affine& frame, double radius, double depth, 
 
 /// A stand: a pole from the floor to `top`, three legs, and two clamps with wing nuts.
 void stand(Sculptor& sculptor, const Vec3d& top) {
+  const auto together = sculptor.part();
   sculptor.material(kChrome);
   const Vec3d foot{top.x, top.y, 0.12};
   sculptor.closed_sheet({3, 4}, jevans::rod(foot, top, 0.013, 0.009));
@@ -67,6 +69,7 @@ void stand(Sculptor& sculptor, const Vec3d& top) {
 
 /// A cymbal of bell and bow, tilted about y.
 void cymbal(Sculptor& sculptor, const Vec3d& at, double radius, double tilt) {
+  const auto together = sculptor.part();
   sculptor.material(kBrass);
   sculptor.sheet({10, 6},
                  jevans::revolved(compose(translation(at), rotation({0, 1, 0}, tilt)), [=](double v) {
@@ -78,6 +81,7 @@ void cymbal(Sculptor& sculptor, const Vec3d& at, double radius, double tilt) {
 
 /// The springs under the snare drum: coils side by side along x.
 void snares(Sculptor& sculptor, const Vec3d& centre, double length, int strands) {
+  const auto together = sculptor.part();
   sculptor.material(kChrome);
   for (int k = 0; k < strands; ++k) {
     const double y = centre.y + 0.006 * (k - 0.5 * (strands - 1));
@@ -91,6 +95,7 @@ void snares(Sculptor& sculptor, const Vec3d& centre, double length, int strands)
 }
 
 void drums(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   const auto upright = [](const Vec3d& at, double tilt) {
     return compose(translation(at), rotation({1, 0, 0}, tilt));
   };
@@ -106,6 +111,7 @@ void drums(Sculptor& sculptor) {
 }
 
 void cymbals(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   stand(sculptor, {-0.62, 0.0, 1.2});
   stand(sculptor, {0.72, 0.02, 1.08});
   stand(sculptor, {-0.9, 0.42, 0.98});
@@ -117,6 +123,7 @@ void cymbals(Sculptor& sculptor) {
 }
 
 void furniture(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   // The stool.
   const Vec3d seat{0.02, 1.0, 0.5};
   sculptor.material(kBlack);

@@ -22,6 +22,7 @@ double ground_height(double x, double y) {
 }
 
 void landscape(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   sculptor.material({{0.87, 0.7, 0.45}, 0.9, 0, 100000, 0, 1});
   sculptor.sheet({5, 4, Seam::none}, [](double u, double v) {
     const double x = 1200 * (u - 0.5), y = 900 * (v - 0.5);
@@ -50,6 +51,7 @@ Vec3d spine(double v) { return {2.6 - 5.4 * v, 0.3 * std::sin(6 * v), 0.8 + 0.15
 double girth(double v) { return (0.3 + 0.22 * std::abs(std::sin(7 * jevans::kPi * v))) * (1.15 - 0.5 * v); }
 
 void creature(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   sculptor.material({{0.3, 0.7, 0.25}, 0.8, 0.05, 30, 0, 1});
   sculptor.closed_sheet({6, 13}, jevans::tube(spine, {0, 0, 1}, girth));
   sculptor.closed_sheet({5, 5}, jevans::ellipsoid(translation({2.95, 0, 1.15}), {0.6, 0.58, 0.6}));

@@ -27,6 +27,7 @@ Corners standing_tetrahedron() {
 }
 
 void divide(SceneBuilder& builder, const Corners& corners, int level) {
+  const auto pyramid = builder.group();
   const auto& [a, b, c, apex] = corners;
   if (level == 1) {
     builder.triangle(a, c, b);

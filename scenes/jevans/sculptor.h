@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -43,11 +44,17 @@ class Sculptor {
     if (builder_) builder_->polygon(vertices);
   }
 
+  /// Keeps what is shaped during its life together as a group.
+  [[nodiscard]] std::unique_ptr<SceneBuilder::GroupScope> part() {
+    return builder_ ? std::make_unique<SceneBuilder::GroupScope>(*builder_) : nullptr;
+  }
+
   /// The surface point(u, v), u and v from 0 to 1, as two triangles a cell.
   template <class Surface>
   void sheet(const Cells& cells, const Surface& point) {
     polygons_ += 2.0 * cells.around * cells.along * size_ * size_;
     if (!builder_) return;
+    const auto whole_sheet = part();
     const int around = cells.around * size_, along = cells.along * size_;
     std::vector<Vec3d> row = ring(cells, point, 0), first = row;
     for (int j = 1; j <= along; ++j) {
@@ -64,6 +71,7 @@ class Sculptor {
   /// A sheet sewn around, with its two flat ends covered by one polygon each.
   template <class Surface>
   void closed_sheet(const Cells& cells, const Surface& point) {
+    const auto closed = part();
     sheet(cells, point);
     cap(cells, point, 0);
     cap(cells, point, 1);
@@ -82,6 +90,7 @@ class Sculptor {
 
   /// A box with the given half widths along the axes of `frame`: six polygons.
   void box(const Affine& frame, const Vec3d& half) {
+    const auto whole_box = part();
     for (int axis = 0; axis < 3; ++axis)
       for (const double side : {-1.0, 1.0}) {
         std::array<Vec3d, 4> corners;

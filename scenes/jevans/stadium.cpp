@@ -62,6 +62,7 @@ void seat(SceneBuilder& builder, double number, double scale) {
 }
 
 void stands(SceneBuilder& builder, double scale, long long seats) {
+  const auto together = builder.group();
   builder.material({{0.65, 0.65, 0.68}, 0.9, 0, 100000, 0, 1});
   for (int tier = 0; tier < kTiers; ++tier)
     for (int sector = 0; sector < kSectors; ++sector) {
@@ -79,6 +80,7 @@ void stands(SceneBuilder& builder, double scale, long long seats) {
 }
 
 void field(SceneBuilder& builder, double scale) {
+  const auto together = builder.group();
   const auto lie = [&](double x, double y, double half_x, double half_y, double z) {
     builder.polygon(
         std::array{Vec3d{x - half_x, y - half_y, z} * scale, Vec3d{x + half_x, y - half_y, z} * scale,

@@ -26,6 +26,7 @@ const Material kBlue{{0.1, 0.25, 0.7}, 0.8, 0.1, 30, 0, 1};
 
 /// A wheel about the y axis through `centre`: a tyre with two dozen knobs, a rim, a hub, and crossed spokes.
 void wheel(Sculptor& sculptor, const Vec3d& centre, double radius, int segments, int spokes) {
+  const auto together = sculptor.part();
   const Affine frame = jevans::frame_along(centre, {0, 1, 0});
   const double tyre = 0.11 * radius, rim = radius - 2 * tyre;
   sculptor.material(kRubber);
@@ -50,6 +51,7 @@ void wheel(Sculptor& sculptor, const Vec3d& centre, double radius, int segments,
 }
 
 void frame_and_fork(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   sculptor.material(kRed);
   // The main tube falls from the head in an S and runs to the rear axle.
   const auto backbone = [](double v) {
@@ -76,6 +78,7 @@ void frame_and_fork(Sculptor& sculptor) {
 }
 
 void saddle(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   sculptor.material(kBlue);
   const auto cushion = jevans::rounded_box({}, {0.15, 0.11, 0.035}, 0.8);
   sculptor.closed_sheet({16, 13}, [=](double u, double v) {
@@ -94,6 +97,7 @@ Vec3d handlebar(double v) {
 }
 
 void steering(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   sculptor.material(kChrome);
   sculptor.closed_sheet({5, 3}, jevans::rod({0.318, 0, 0.64}, {0.31, 0, 0.73}, 0.016));
   sculptor.closed_sheet({6, 36}, jevans::tube(handlebar, {0, 0, 1}, [](double) { return 0.011; }));
@@ -125,6 +129,7 @@ void steering(Sculptor& sculptor) {
 }
 
 void pedals(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   for (const double side : {-1.0, 1.0}) {
     const Vec3d hub{0.45, 0.075 * side, 0.25}, end{0.45 + 0.085 * side, 0.085 * side, 0.25 - 0.06 * side};
     sculptor.material(kChrome);
@@ -137,6 +142,7 @@ void pedals(Sculptor& sculptor) {
 
 /// A basket of wire in front of the handlebar: four hoops that widen upwards, and sixteen wires.
 void basket(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   sculptor.material(kChrome);
   const auto hoop_radius = [](double h) { return 0.085 + 0.03 * h; };
   const Affine base = translation({0.47, 0, 0.62});
@@ -151,6 +157,7 @@ void basket(Sculptor& sculptor) {
 }
 
 void yard(Sculptor& sculptor) {
+  const auto together = sculptor.part();
   const auto square = [](double half, double z) {
     return std::array{Vec3d{-half, -half, z}, Vec3d{half, -half, z}, Vec3d{half, half, z},
                       Vec3d{-half, half, z}};

@@ -33,6 +33,7 @@ Affine align_z_with(const Vec3d& d) {
 
 void grow(SceneBuilder& builder, const std::array<Vec3d, 9>& directions, const Vec3d& centre, double radius,
           const Vec3d& axis, int depth) {
+  const auto sphere_with_children = builder.group();
   builder.sphere(centre, radius);
   if (depth == 0) return;
   const Affine align = align_z_with(axis);

@@ -44,13 +44,17 @@ Outline outline(const Gear& gear, double sense) {
 }
 
 void emit(SceneBuilder& builder, const Gear& gear) {
+  const auto whole_gear = builder.group();
   const Vec3d down{0, 0, -gear.thickness};
   const Outline top = outline(gear, 1);
+  std::optional<SceneBuilder::GroupScope> tooth;
   builder.polygon(top);
   for (std::size_t i = 0; i < top.size(); ++i) {
+    if (i % 4 == 0) tooth.emplace(builder);
     const Vec3d &a = top[i], &b = top[(i + 1) % top.size()];
     builder.polygon(std::array{a, a + down, b + down, b});
   }
+  tooth.reset();
   builder.polygon(outline({gear.centre + down, gear.radius, gear.thickness, gear.phase}, -1));
 }
 
@@ -79,14 +83,18 @@ void generate(const SceneOptions& options, const Arguments&, SceneBuilder& build
   const int size = options.size;
   const double radius = 1 / (size - 0.05 * (size - 1)), pitch = 1.9 * radius;
   const double thickness = std::min(0.1, 1 / (2.0 * size));
-  for (int iz = 0; iz < size; ++iz)
-    for (int iy = 0; iy < size; ++iy)
+  for (int iz = 0; iz < size; ++iz) {
+    const auto layer = builder.group();
+    for (int iy = 0; iy < size; ++iy) {
+      const auto row = builder.group();
       for (int ix = 0; ix < size; ++ix) {
         builder.material(material_at(ix, iy, iz));
         const Vec3d centre{-1 + radius + pitch * ix, -1 + radius + pitch * iy,
                            1 - static_cast<double>(iz) / size};
         emit(builder, {centre, radius, thickness, (ix + iy + iz) % 2 == 1 ? kToothAngle / 2 : 0});
       }
+    }
+  }
 }
 
 double object_count(const SceneOptions& options, const Arguments&) {

@@ -25,6 +25,7 @@ void jack(SceneBuilder& builder, const Affine& place, double scale) {
 
 /// A jack and, at the corners of a cube around it, eight half its size.
 void divide(SceneBuilder& builder, const Affine& place, double scale, int levels) {
+  const auto jack_with_smaller = builder.group();
   jack(builder, place, scale);
   if (levels == 1) return;
   for (const double x : {-0.5, 0.5})

@@ -27,9 +27,12 @@ void generate(const SceneOptions& options, const Arguments&, SceneBuilder& build
   const Material node{{0.9, 0.9, 0.9}, 0.5, 0.5, shine_from_highlight_angle(37), 0, 0};
   const double sphere_radius = 1 / (4 * size), rod_radius = 1 / (16 * size);
   const double gap = 0.99 * sphere_radius / 2;
-  for (int x = 0; x <= options.size; ++x)
-    for (int y = 0; y <= options.size; ++y)
+  for (int x = 0; x <= options.size; ++x) {
+    const auto layer = builder.group();
+    for (int y = 0; y <= options.size; ++y) {
+      const auto row = builder.group();
       for (int z = 0; z <= options.size; ++z) {
+        const auto node_with_rods = builder.group();
         const std::array at{x, y, z};
         const Vec3d centre{x / size, y / size, z / size};
         builder.material(node);
@@ -45,6 +48,8 @@ void generate(const SceneOptions& options, const Arguments&, SceneBuilder& build
           builder.cone(from, rod_radius, to, rod_radius);
         }
       }
+    }
+  }
 }
 
 double object_count(const SceneOptions& options, const Arguments&) {

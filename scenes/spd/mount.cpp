@@ -42,6 +42,7 @@ class Mountain {
   /// Displace the middles of a cell's edges and of the cell, then divide it; a cell of width 1 is two
   /// triangles.
   void divide(std::int64_t x, std::int64_t y, std::int64_t width, const Heights& z) {
+    const auto quadrant = builder_.group();
     if (width == 1) return emit(x, y, z);
     const std::int64_t h = width / 2;
     const double spread = 2.0 * static_cast<double>(h) / static_cast<double>(cells_) * roughness_;
@@ -87,6 +88,7 @@ class Mountain {
 /// Four balls that touch one another, at the corners of a tetrahedron standing on its face.
 void balls(SceneBuilder& builder) {
   constexpr double radius = 0.17;
+  const auto all_four = builder.group();
   const Vec3d centre{-0.8, 0.8, 1};
   const Vec3d up{0, 0, radius * std::sqrt(1.5)};
   const Vec3d down = rotation(Vec3d{1, 1, 0} * (1 / std::numbers::sqrt2), std::acos(-1.0 / 3)).direction(up);

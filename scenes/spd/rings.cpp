@@ -34,8 +34,10 @@ std::array<Vec3d, kRings * kCorners> cluster() {
 }
 
 void emit(SceneBuilder& builder, const std::array<Vec3d, kRings * kCorners>& points, const Vec3d& offset) {
+  const auto whole_cluster = builder.group();
   const Vec3d colours[kRings] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 1}, {1, 1, 0}};
   for (int ring = 0; ring < kRings; ++ring) {
+    const auto whole_ring = builder.group();
     builder.material({colours[ring], 0.5, 0.2, shine_from_highlight_angle(37), 0, 0});
     for (int k = 0; k < kCorners; ++k) {
       const int previous = (k + kCorners - 1) % kCorners;
@@ -62,10 +64,14 @@ void generate(const SceneOptions& options, const Arguments&, SceneBuilder& build
 
   // The clusters form a square pyramid with its apex towards the eye.
   const auto points = cluster();
-  for (int depth = 0; depth < options.size; ++depth)
-    for (int kz = 0; kz <= depth; ++kz)
+  for (int depth = 0; depth < options.size; ++depth) {
+    const auto layer = builder.group();
+    for (int kz = 0; kz <= depth; ++kz) {
+      const auto row = builder.group();
       for (int kx = 0; kx <= depth; ++kx)
         emit(builder, points, {2.0 * kx - depth, spacing * (depth + 1), 2.0 * kz - depth});
+    }
+  }
 }
 
 double object_count(const SceneOptions& options, const Arguments&) {

@@ -21,7 +21,9 @@ void generate(const SceneOptions& options, const Arguments&, SceneBuilder& build
 
   // Nine turns of a logarithmic spiral, six inwards and three outwards of radius 1.
   const long long n = 180LL << options.size;
+  std::optional<SceneBuilder::GroupScope> turn;
   for (long long i = -2 * n / 3; i <= n / 3; ++i) {
+    if (9 * i % n == 0) turn.emplace(builder);
     const double angle = 18 * spd::kPi * static_cast<double>(i) / static_cast<double>(n);
     const double radius = std::exp(0.15 * angle);
     builder.sphere({radius * std::sin(angle), radius * std::cos(angle), -2 * radius}, radius);

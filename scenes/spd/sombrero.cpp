@@ -45,6 +45,7 @@ void generate(const SceneOptions& options, const Arguments&, SceneBuilder& build
   std::vector<Vec3d> previous = row(width, y, -4);
   for (int i = 1; i < width; ++i) {
     y += step;
+    const auto strip = builder.group();
     std::vector<Vec3d> current = row(width, y, -4 + i * edge);
     for (int j = 0; j + 1 < width; ++j) {
       builder.triangle(previous[j], current[j + 1], previous[j + 1]);

@@ -74,6 +74,7 @@ void emit(SceneBuilder& builder, std::array<PatchPoint, 3> corners) {
 }
 
 void emit_patch(SceneBuilder& builder, const std::array<std::uint16_t, 16>& indices, int cells) {
+  const auto whole_patch = builder.group();
   const Coefficients patch = power_basis(indices);
   const auto corner = [&](int i, int j) {
     return evaluate(patch, static_cast<double>(i) / cells, static_cast<double>(j) / cells);
@@ -88,6 +89,7 @@ void emit_patch(SceneBuilder& builder, const std::array<std::uint16_t, 16>& indi
 
 /// The squares of one colour of the checkerboard.
 void emit_squares(SceneBuilder& builder, int size, int parity) {
+  const auto squares = builder.group();
   const auto at = [&](int k) { return 4 * (2.0 * k / size - 1); };
   for (int i = 0; i < size; ++i)
     for (int j = 0; j < size; ++j)

@@ -25,6 +25,7 @@ void tetrahedron(SceneBuilder& builder, const Vec3d& centre, double half) {
 /// A tetrahedron in a cube of the given centre and half width; above level 1, four of half the size at its
 /// corners.
 void divide(SceneBuilder& builder, const Vec3d& centre, double half, int level) {
+  const auto pyramid = builder.group();
   if (level == 1) return tetrahedron(builder, centre, half);
   for (const Vec3d& corner : kCorners) divide(builder, centre + corner * (half / 2), half / 2, level - 1);
 }

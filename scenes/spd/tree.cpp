@@ -26,6 +26,7 @@ std::array<Affine, 2> child_placements() {
 
 void grow(SceneBuilder& builder, const std::array<Affine, 2>& children, const Affine& place, double scale,
           int depth) {
+  const auto branch_with_children = builder.group();
   const Vec3d base = place({0, 0, 0}), tip = place({0, 0, 1});
   const double tip_radius = kTaper * kTrunkRadius * scale;
   builder.cone(base, kTrunkRadius * scale, tip, tip_radius);
