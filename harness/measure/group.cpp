@@ -42,10 +42,10 @@ struct Cell {
 };
 
 template <class Real>
-class Group {
+class GroupRun {
  public:
-  Group(const GroupInput& input, report::Report& report, RunObserver& observer,
-        const std::function<bool()>& stopped)
+  GroupRun(const GroupInput& input, report::Report& report, RunObserver& observer,
+           const std::function<bool()>& stopped)
       : input_(input),
         suite_(input.plan.suite),
         report_(report),
@@ -271,7 +271,7 @@ class Group {
 template <class Real>
 void run_group(const GroupInput& input, report::Report& report, RunObserver& observer,
                const std::function<bool()>& stopped) {
-  Group<Real>(input, report, observer, stopped).run();
+  GroupRun<Real>(input, report, observer, stopped).run();
 }
 
 template void run_group<float>(const GroupInput&, report::Report&, RunObserver&,
