@@ -1,0 +1,93 @@
+// Hierarchy of volumes of various kinds (Arvo & Kirk §4.1 and §4.2)
+// H. Weghorst, G. Hooper, D. Greenberg, "Improved computational methods for ray tracing", 1984.
+//
+// Idea       The modeller's hierarchy, with a volume about every node: a sphere, a box along the axes, a turned box or a
+//            cylinder. A tight volume is met by few rays in vain but may be dear to test. Node by node that volume is
+//            chosen for which the area that it projects, times the cost of its test, is least.
+// Parameters hierarchy    modeller takes the grouping that the scene's generator states, automatic clusters; modeller,
+//                         as in the paper; a scene without grouping, as one from a file, is clustered in either case,
+//                         and so are the objects or groups of a group that has more than a node may hold
+//            resolution   cells of the clustering histogram along the longest axis; 8
+//            max_objects  objects that a node may hold itself; 4, since a volume costs about two tests of an object
+//            volumes      best chooses; sphere, axis_box, oriented_box or cylinder takes one kind throughout, for
+//                         comparison
+// Cost       equation (1) at every node: n B + m I, where B is the cost of testing the chosen volume. Projected void
+//            area is what differs between volumes about the same objects, whose own projection is the same for all;
+//            by Cauchy's theorem the mean projection of a convex volume is a quarter of its surface.
+// Weak       groups of the modeller's that overlap or sprawl: he did not build them for rays.
+// Exactness  a volume is widened by what a hit may lie beside its surface, ray by ray; a ray that is not finite or of an
+//            extreme direction meets every volume but boxes along the axes.
+
+#include "accel/core/define_technique.h"
+#include "accel/parts/volume_tree.h"
+
+namespace rayshoot {
+
+namespace {
+
+struct WeghorstConfig {
+  HierarchyConfig hierarchy;
+  /// The kind of every volume; none to choose.
+  std::optional<VolumeKind> kind;
+};
+
+template <class Real>
+class BvhWeghorst {
+ public:
+  using Scalar = Real;
+  using Config = WeghorstConfig;
+  struct Scratch {
+    typename VolumeTree<Real>::Stack stack;
+  };
+
+  static TechniqueInfo info() {
+    std::vector<std::string> words{"best"}, events;
+    for (const std::string kind : kVolumeKindNames) words.push_back(kind), events.push_back(kind + "_tests");
+    std::vector<Parameter> parameters = hierarchy_parameters();
+    parameters.push_back(choice_parameter("volumes", "best", words, "kind of the volumes"));
+    return {.id = "bvh_weghorst",
+            .title = "Hierarchy of volumes chosen by projected area and cost",
+            .family = "bounding_volume",
+            .survey_section = "4",
+            .paper = "Weghorst, Hooper & Greenberg 1984",
+            .parameters = std::move(parameters),
+            .events = std::move(events)};
+  }
+  static Config configure(const Arguments& arguments) {
+    Config config{.hierarchy = hierarchy_config(arguments), .kind = {}};
+    const auto named = std::find(kVolumeKindNames.begin(), kVolumeKindNames.end(), arguments.text("volumes"));
+    if (named != kVolumeKindNames.end())
+      config.kind = static_cast<VolumeKind>(named - kVolumeKindNames.begin());
+    return config;
+  }
+
+  static BvhWeghorst build(const BuildInput<Real>& in, const Config& config) {
+    // Choose the volume of each node by itself.
+    BvhWeghorst bvh;
+    bvh.tree_ = VolumeTree<Real>(in.geometry, object_hierarchy(in.geometry, config.hierarchy),
+                                 [&](const std::array<Volume<Real>, 4>& volumes) {
+                                   return config.kind ? volumes[static_cast<std::size_t>(*config.kind)]
+                                                      : cheapest_volume<Real>(volumes);
+                                 });
+    return bvh;
+  }
+
+  Scratch scratch() const { return {}; }
+  std::span<const std::uint32_t> order() const { return tree_.order(); }
+  StructureStats structure() const { return tree_.structure(); }
+
+  template <class Counter, class L>
+  void visit(const Ray<Real>& ray, Scratch& scratch, Counter count, L& leaf) const {
+    const auto tested = [&](VolumeKind kind) { count.event(static_cast<std::size_t>(kind)); };
+    tree_.visit(ray, scratch.stack, count, tested, leaf);
+  }
+
+ private:
+  VolumeTree<Real> tree_;
+};
+
+}  // namespace
+
+RAYSHOOT_TECHNIQUE(bvh_weghorst, BvhWeghorst)
+
+}  // namespace rayshoot

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scenes/core/geometry.h"
+#include "scenes/core/spec.h"
+
+namespace rayshoot {
+
+/// Where a hierarchy of objects comes from: the modeller's own grouping, or automatic clustering.
+enum class HierarchySource { modeller, automatic };
+
+struct HierarchyConfig {
+  HierarchySource source = HierarchySource::modeller;
+  /// Cells of the histogram along the longest axis.
+  int resolution = 8;
+  /// Objects that a node may hold itself.
+  std::uint32_t max_objects = 4;
+};
+
+/// The parameters `hierarchy`, `resolution` and `max_objects`, and their values.
+std::vector<Parameter> hierarchy_parameters();
+HierarchyConfig hierarchy_config(const Arguments& arguments);
+
+/// A hierarchy of objects before anybody bounds it. Nodes stand depth first; a node's objects are consecutive, its own
+/// before those of the nodes below it.
+struct ObjectHierarchy {
+  struct Node {
+    std::uint32_t first, own_last, last;  ///< positions in `order`: own objects end at own_last, all at last
+    std::uint32_t end;                    ///< the nodes below are those up to here
+    bool modelled;                        ///< a group of the modeller's
+  };
+  std::vector<Node> nodes;
+  /// Every object once.
+  std::vector<std::uint32_t> order;
+};
+
+/// The modeller's hierarchy where it is asked for and the geometry has one, otherwise that of the densest peaks of a
+/// 3-D histogram (Rubin & Whitted 1980): the objects whose centres lie nearest to a peak form a cluster, and so on with
+/// every cluster. What is too much for one node of the modeller's is divided in the same way.
+template <class Real>
+ObjectHierarchy object_hierarchy(const Geometry<Real>& geometry, const HierarchyConfig& config);
+
+}  // namespace rayshoot
