@@ -1,0 +1,177 @@
+// Parametric traversal of an octree (Revelles, Ureña & Lastra 2000)
+// J. Revelles, C. Ureña, M. Lastra, "An efficient parametric algorithm for octree traversal", 2000.
+//
+// Idea       Go down from the root. The parameters at which the ray crosses the planes of a voxel follow from those of
+//            its parent: the faces are known, and only three dividing planes are new. Comparing them tells the first
+//            child that the ray enters, and then the next one from the one it is in, without any point in space.
+// Parameters max_depth    divisions below the root; 0 suits it to the number of objects as octree_glassner does
+//            max_objects  a voxel with that many objects or fewer is not divided; 8, as octree_glassner
+//            assignment   surface lists an object where its surface penetrates, box where its bounds touch
+//            mailbox      auto: where an object is listed twice
+// Cost       six products for every interior voxel on the ray, and a comparison for every child; no look-ups from the
+//            root. Steps are the voxels that are entered.
+// Weak       interior voxels are visited again for every ray, so deep trees over small scenes cost more than a grid.
+//
+// Exactness  Every plane has an earliest and a latest parameter. Where those of two dividing planes overlap, the ray may
+//            pass an edge or a vertex: then all children are compared, and those touched are visited too.
+
+#include "accel/core/define_technique.h"
+#include "accel/parts/octree_cells.h"
+#include "accel/parts/visit_cells.h"
+
+namespace rayshoot {
+
+namespace {
+
+template <class Real>
+class OctreeRevelles {
+ public:
+  using Scalar = Real;
+  using Config = OctreeCellsConfig;
+  using Scratch = Mailbox;
+
+  static TechniqueInfo info() {
+    return {.id = "octree_revelles",
+            .title = "Octree, parametric traversal from the root",
+            .family = "octree",
+            .survey_section = "5.1",
+            .paper = "Revelles, Ureña & Lastra 2000",
+            .parameters = OctreeCells<Real>::parameters()};
+  }
+  static Config configure(const Arguments& arguments) { return OctreeCells<Real>::configure(arguments); }
+
+  static OctreeRevelles build(const BuildInput<Real>& in, const Config& config) {
+    OctreeRevelles technique;
+    technique.cells_ = OctreeCells<Real>(in.geometry, config);
+    return technique;
+  }
+
+  Scratch scratch() const { return cells_.mailbox(); }
+  StructureStats structure() const { return cells_.structure(); }
+
+  template <class Counter, class L>
+  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
+    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
+  }
+
+  /// proc_subtree of the paper, with a stack of its own.
+  template <class Counter, class Reach, class Visit>
+  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
+    if (const Real margin = cells_.margin(ray); margin != 0) [[unlikely]]
+      return cells_.visit_within(margin, ray, count, reach, visit);
+
+    // Leave out rays that miss the root; a root that is a leaf is all there is.
+    const LatticeRay<Real> path(cells_.lattice(), ray);
+    const int layers = cells_.lattice().layers();
+    const Interval<Real> whole = path.inside({0, 0, 0}, layers);
+    if (!(std::max(whole.enter, ray.t_min) <= std::min(whole.exit, reach()))) return;
+    count.step();
+    if (!cells_.root().interior()) {
+      visit(cells_.objects(cells_.root()));
+      return;
+    }
+
+    Voxel stack[kMaxOctreeDepth];
+    int top = 0;
+    stack[0].begin(cells_.root(), {0, 0, 0}, layers);
+    stack[0].cell.begin(path, {0, 0, 0}, layers);
+    stack[0].octant = first_child(stack[0].cell, ray.t_min);
+    while (top >= 0) {
+      // Take the child that the ray is in, and find the one after it.
+      Voxel& voxel = stack[top];
+      const unsigned octant = voxel.octant;
+      if (octant >= 8) {
+        --top;
+        continue;
+      }
+      voxel.octant = next_child(voxel, octant, ray.t_min);
+      const Interval<Real> inside = voxel.cell.inside(octant);
+      if (!(inside.enter <= reach())) continue;
+      count.step();
+
+      // Visit it if it is a leaf, and go down otherwise.
+      const auto& child = cells_.child(*voxel.node, octant ^ path.mirror());
+      if (!child.interior()) {
+        if (visit(cells_.objects(child))) return;
+        continue;
+      }
+      const int size = voxel.size / 2;
+      const Layers corner = OctreeCells<Real>::child_corner(voxel.corner, octant, size);
+      Voxel& below = stack[++top];
+      below.begin(child, corner, size);
+      below.cell.begin_child(path, corner, size, voxel.cell, octant);
+      below.octant = first_child(below.cell, ray.t_min);
+    }
+  }
+
+ private:
+  using Layers = typename LatticeRay<Real>::Layers;
+
+  /// An interior voxel on the ray, and the child to be visited next, 8 when there is none.
+  struct Voxel {
+    const typename Octree<Real>::Node* node;
+    Layers corner;
+    int size;
+    DividedCell<Real> cell;
+    unsigned octant;
+    /// Whether the order of the dividing planes is in doubt, so that all children are compared.
+    bool in_doubt;
+
+    void begin(const typename Octree<Real>::Node& of, const Layers& at, int layers) {
+      node = &of, corner = at, size = layers, in_doubt = false;
+    }
+  };
+
+  /// first_node of the paper: the child that the ray is in first, beyond each plane that it has certainly passed.
+  static unsigned first_child(const DividedCell<Real>& cell, Real t_min) {
+    const Real first = cell.first(t_min);
+    return (cell.exit[0][0] < first ? 1u : 0u) | (cell.exit[0][1] < first ? 2u : 0u) |
+           (cell.exit[0][2] < first ? 4u : 0u);
+  }
+
+  /// new_node of the paper: the ray leaves a child by the first of the dividing planes before it, and the voxel when
+  /// there is none.
+  static unsigned next_child(Voxel& voxel, unsigned octant, Real t_min) {
+    if (voxel.in_doubt) return next_of_all(voxel.cell, octant, t_min);
+    constexpr Real never = Box<Real>::infinity();
+    const auto& leave = voxel.cell.exit[0];
+    const Real x = octant & 1 ? never : leave[0], y = octant & 2 ? never : leave[1],
+               z = octant & 4 ? never : leave[2];
+    const auto& pass = voxel.cell.enter[1];
+    const Real x_earliest = octant & 1 ? never : pass[0], y_earliest = octant & 2 ? never : pass[1],
+               z_earliest = octant & 4 ? never : pass[2];
+    unsigned next = 8;
+    if (x < y_earliest && x < z_earliest)
+      next = octant | 1;
+    else if (y < x_earliest && y < z_earliest)
+      next = octant | 2;
+    else if (z < x_earliest && z < y_earliest)
+      next = octant | 4;
+    else if (octant != 7) {
+      voxel.in_doubt = true;
+      return next_of_all(voxel.cell, octant, t_min);
+    }
+    return next < 8 && met(voxel.cell, next, t_min) ? next : 8;
+  }
+
+  /// The next child in increasing order that the ray may touch.
+  [[gnu::noinline, gnu::cold]] static unsigned next_of_all(const DividedCell<Real>& cell, unsigned octant,
+                                                           Real t_min) {
+    while (++octant < 8 && !met(cell, octant, t_min)) {
+    }
+    return octant;
+  }
+
+  static bool met(const DividedCell<Real>& cell, unsigned octant, Real t_min) {
+    const Interval<Real> inside = cell.inside(octant);
+    return inside.enter <= inside.exit && inside.exit >= t_min;
+  }
+
+  OctreeCells<Real> cells_;
+};
+
+}  // namespace
+
+RAYSHOOT_TECHNIQUE(octree_revelles, OctreeRevelles)
+
+}  // namespace rayshoot

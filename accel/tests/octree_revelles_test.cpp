@@ -1,0 +1,117 @@
+// What makes octree_revelles that technique: every leaf that the ray meets, no other, and no way twice from the root.
+#include <set>
+
+#include "accel/parts/octree_cells.h"
+#include "accel/tests/conformance.h"
+#include "accel/tests/two_caveats.h"
+
+namespace rayshoot {
+namespace {
+
+constexpr const char* kOctree = "octree_revelles";
+
+/// Leaves, and the interior nodes above them, whose closed interval on a ray is not empty, found by asking all.
+struct Met {
+  std::uint64_t nodes = 0, leaves = 0, empty_leaves = 0;
+  std::set<std::uint32_t> objects;
+};
+
+Met met_by(const Octree<double>& octree, const Ray<double>& ray) {
+  struct Place {
+    const Octree<double>::Node* node;
+    std::array<int, 3> corner;
+    int size;
+  };
+  const LatticeRay<double> path(octree.lattice, ray);
+  Met met;
+  std::vector<Place> places{{&octree.nodes[0], {0, 0, 0}, octree.lattice.layers()}};
+  while (!places.empty()) {
+    const auto [node, corner, size] = places.back();
+    places.pop_back();
+    const Interval<double> inside = path.inside(corner, size);
+    if (!(inside.enter <= inside.exit && inside.exit >= ray.t_min && inside.enter <= ray.t_max)) continue;
+    ++met.nodes;
+    if (node->interior()) {
+      for (unsigned octant = 0; octant < 8; ++octant)
+        places.push_back({&octree.nodes[node->first + (octant ^ path.mirror())],
+                          OctreeCells<double>::child_corner(corner, octant, size / 2), size / 2});
+      continue;
+    }
+    ++met.leaves;
+    met.empty_leaves += node->count == 0;
+    for (const std::uint32_t object : octree.objects(*node)) met.objects.insert(object);
+  }
+  return met;
+}
+
+/// Rays along the planes, edges and diagonals of the cells of an octree, besides those of the conformance tests.
+std::vector<Ray<double>> rays_through(const Geometry<double>& geometry, const Lattice<double>& lattice) {
+  std::vector<Ray<double>> rays = nasty::rays(geometry, 1, 150);
+  const Vec3d diagonal = lattice.step * lattice.layers();
+  for (int k = 0; k <= lattice.layers(); k += 2)
+    for (unsigned signs = 0; signs < 8; ++signs) {
+      const Vec3d to{signs & 1 ? -1.0 : 1.0, signs & 2 ? -1.0 : 1.0, signs & 4 ? -1.0 : 1.0};
+      const Vec3d corner{lattice.plane(0, k), lattice.plane(1, lattice.layers() / 2),
+                         lattice.plane(2, lattice.layers() - k)};
+      const Vec3d along{to.x * diagonal.x, to.y * diagonal.y, to.z * diagonal.z};
+      rays.push_back({.origin = corner - along * 2, .direction = along});
+      rays.push_back({.origin = corner, .direction = along});
+      for (int axis = 0; axis < 3; ++axis) {
+        Vec3d parallel{};
+        parallel[axis] = to[axis];
+        rays.push_back({.origin = corner - parallel * 100, .direction = parallel});
+      }
+    }
+  return rays;
+}
+
+TEST(OctreeRevelles, VisitsEveryLeafThatTheRayMeetsAndNoOther) {
+  const Geometry<double> geometry(soup_scene(200));
+  const Octree<double> octree =
+      build_octree(geometry, {.max_depth = 5, .max_objects = 2, .assignment = Assignment::box});
+  const auto engine =
+      build(kOctree, geometry, {{"max_depth", "5"}, {"max_objects", "2"}, {"assignment", "box"}});
+  const auto scratch = engine->scratch();
+  std::uint64_t leaves = 0;
+  for (const Ray<double>& ray : rays_through(geometry, octree.lattice)) {
+    if (!(ray.t_min <= ray.t_max)) continue;
+    const Met met = met_by(octree, ray);
+    const Work work = counted(*engine, Query::strict, {ray}).work;
+    ASSERT_EQ(work.cells, met.leaves) << conformance::describe(ray);
+    ASSERT_EQ(work.empty_cells, met.empty_leaves) << conformance::describe(ray);
+    ASSERT_EQ(work.steps, met.nodes) << "each node on the ray is entered once; "
+                                     << conformance::describe(ray);
+    const auto candidates = engine->candidates(Query::strict, ray, *scratch);
+    ASSERT_TRUE(std::equal(candidates.begin(), candidates.end(), met.objects.begin(), met.objects.end()))
+        << conformance::describe(ray);
+    leaves += met.leaves;
+  }
+  EXPECT_GT(leaves, 5000u);
+}
+
+/// The same tree as octree_glassner's, the same objects met, and fewer steps, for none begins at the root again.
+TEST(OctreeRevelles, TakesFewerStepsThanNamingEveryVoxelFromTheRoot) {
+  const Geometry<double> geometry(soup_scene(400));
+  const auto rays = nasty::rays(geometry, 1, 200);
+  const auto named = build("octree_glassner", geometry), parametric = build(kOctree, geometry);
+  const StructureStats of_named = named->structure(), own = parametric->structure();
+  EXPECT_EQ(own.nodes, of_named.nodes);
+  EXPECT_EQ(own.empty_leaves, of_named.empty_leaves);
+  EXPECT_EQ(own.references, of_named.references);
+  const Work by_name = counted(*named, Query::strict, rays).work,
+             by_parameter = counted(*parametric, Query::strict, rays).work;
+  EXPECT_LE(by_parameter.distinct_objects, by_name.distinct_objects);
+  EXPECT_LT(by_parameter.steps, by_name.steps);
+}
+
+TEST(OctreeRevelles, TestsAnObjectOnceWithAMailbox) {
+  caveats::check_repeated_tests(kOctree, {{"max_depth", "2"}, {"max_objects", "1"}});
+  caveats::check_mailbox_changes_no_answer(kOctree, {});
+}
+
+TEST(OctreeRevelles, GoesOnBehindAHitBeyondTheVoxel) {
+  caveats::check_hit_beyond_the_voxel(kOctree, {{"max_depth", "2"}, {"max_objects", "1"}}, 3);
+}
+
+}  // namespace
+}  // namespace rayshoot
