@@ -44,17 +44,17 @@ int expect_within(const report::Report& report, const Limits& limits) {
   return figures;
 }
 
-/// Cells per ray, his traversal steps of grids, are to be met within 0.05.
+/// Cells per ray, his traversal steps of grids, are met within 0.1: shadow rays here end at any occluder that they
+/// find, his at one inside the cell that they are in.
 void expect_cells(const report::Report& report) {
   for (const report::Measurement& measurement : report.measurements)
     for (const report::PublishedFigure& figure : measurement.published) {
       if (figure.figure != "cells_per_ray") continue;
-      EXPECT_NEAR(figure.ours.value_or(-1), figure.theirs, 0.05) << measurement.scene << ", " << figure.label;
+      EXPECT_NEAR(figure.ours.value_or(-1), figure.theirs, 0.1) << measurement.scene << ", " << figure.label;
     }
 }
 
-/// Tests with objects are met within 6 %: a shadow ray here ends at any occluder it finds, his at one inside the cell that
-/// it is in, so that ours are fewer.
+/// Tests with objects are met within 6 %: for the same reason ours are fewer.
 constexpr double kObjectTests = 0.06;
 
 const Limits kStructure{{"leaves", 0}, {"empty_leaves", 0.001}, {"references", 0.02}};
@@ -93,10 +93,10 @@ TEST(LongReplayTest, HavransUniformGridsWithoutGlass) {
   expect_cells(report);
 }
 
-TEST(LongReplayTest, HavransUniformGridsOfRings) {
+TEST(LongReplayTest, HavransUniformGridsWithConesAndCylinders) {
   const Limits limits{{"leaves", 0}, {"references", 0.05}, {"object_tests_per_ray", kObjectTests}};
-  const report::Report report = replayed("havran-1999", {"rings:7"}, "uniform_grid");
-  EXPECT_EQ(expect_within(report, limits), 9);
+  const report::Report report = replayed("havran-1999", {"rings:7", "tree:11"}, "uniform_grid");
+  EXPECT_EQ(expect_within(report, limits), 18);
   expect_cells(report);
 }
 
