@@ -103,6 +103,17 @@ class CellAssignment {
   bool exact_;
 };
 
+/// The box to divide. Havran's grids give an object that ends on a plane to the cell above it alone: under his rule for
+/// bounds all planes lie lower by less than any object is long, which shows in double precision alone.
+template <class Real>
+Box<Real> grid_box(const Geometry<Real>& geometry) {
+  Box<Real> box = geometry.bounds();
+  constexpr Real lowering = 1e-8;
+  if (geometry.bounds_rule() == BoundsRule::havran)
+    box.lo = box.lo - Vec3<Real>{lowering, lowering, lowering};
+  return box;
+}
+
 /// Throws InputError unless the grid fits into memory.
 template <class Real>
 void refuse_too_many_cells(const GridPlanes<Real>& grid, const CellAssignment<Real>& assignment,
@@ -168,7 +179,7 @@ class UniformGrid {
     if (objects == 0) return technique;
 
     // Divide the box of all objects.
-    const Box<Real>& bounds = in.geometry.bounds();
+    const Box<Real> bounds = grid_box(in.geometry);
     technique.grid_ =
         GridPlanes<Real>(bounds, config.resolution.for_objects(objects, Vec3d(bounds.hi) - Vec3d(bounds.lo)));
     const CellAssignment<Real> assignment(in.geometry, technique.grid_, config.exact);

@@ -139,6 +139,7 @@ std::string render_comparison(const std::vector<report::Report>& reports, Format
     append(overview_tables(reports));
     append(work_precision_tables(reports));
   }
+  append(published_tables(reports));
   append(grading_tables(reports, format == Format::csv));
   return render(tables, format);
 }

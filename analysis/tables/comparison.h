@@ -18,6 +18,9 @@ std::vector<Table> overview_tables(const std::vector<report::Report>& reports);
 /// One table for each group in which thread scaling was measured.
 std::vector<Table> scaling_tables(const std::vector<report::Report>& reports);
 
+/// For each group with published figures, these beside ours; what was published of times, and whether ours agree.
+std::vector<Table> published_tables(const std::vector<report::Report>& reports);
+
 /// All of these; in CSV the comparison alone, whose rows have everything.
 std::string render_comparison(const std::vector<report::Report>& reports, Format format);
 

@@ -7,6 +7,7 @@
 
 #include "harness/measure/building.h"
 #include "harness/measure/counting.h"
+#include "harness/measure/published.h"
 #include "harness/measure/record.h"
 #include "harness/measure/timing.h"
 #include "harness/verify/oracle.h"
@@ -52,7 +53,8 @@ class GroupRun {
         observer_(observer),
         stopped_(stopped),
         all_threads_(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
-        geometry_(input.scene, input.cone_sides, intersector_named(input.intersector)) {
+        geometry_(input.scene, input.cone_sides, intersector_named(input.intersector), suite_.bounds) {
+    geometry_.require_objects(input.scene.id);
     record_set_aside(report.scenes.back());
     take_sample();
   }
@@ -96,9 +98,10 @@ class GroupRun {
   }
 
   bool wanted(const TechniqueChoice& technique, const PreparedRays& rays) const {
-    return why_left_out(suite_, {input_.scene, *rays.spec, rays.set.rays.size(), technique, input_.scalar,
+    return is_planned(technique, input_.scene.id) &&
+           why_left_out(suite_, {input_.scene, *rays.spec, rays.set.rays.size(), technique, input_.scalar,
                                  input_.intersector})
-        .empty();
+               .empty();
   }
 
   template <class Choose>
@@ -134,6 +137,7 @@ class GroupRun {
     for (Cell<Real>& cell : cells) count_cell(cell, batch);
     if (suite_.graded_rays > 0) grade(cells, batch);
     if (!suite_.counts_only) time(cells, batch);
+    compare_with_published(cells, rays.set);
     keep_complete(cells);
   }
 
@@ -240,6 +244,23 @@ class GroupRun {
       else
         measurement.threads.push_back({thread_counts[which], times[i]});
     }
+  }
+
+  /// Put our figures beside the published ones.
+  void compare_with_published(std::vector<Cell<Real>>& cells, const RaySet& set) {
+    const Published& published = input_.plan.published;
+    const auto measured = [&](const std::string& spec) -> const report::Measurement* {
+      for (const Cell<Real>& cell : cells)
+        if (cell.built->choice->spec == spec) return &cell.measurement;
+      return nullptr;
+    };
+    for (Cell<Real>& cell : cells)
+      for (const PublishedRow& row : published.rows)
+        if (row.scene == input_.scene.id && row.technique == cell.built->choice->spec)
+          cell.measurement.published = compared(row, cell.measurement, set);
+    for (const PublishedClaim& claim : published.claims)
+      if (claim.scene == input_.scene.id)
+        report_.claims.push_back(judged(claim, measured(claim.first), measured(claim.second), input_.scalar));
   }
 
   /// Whether all steps of a cell were done: a run may have been stopped before.

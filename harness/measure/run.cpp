@@ -112,6 +112,7 @@ class Runner {
     std::size_t count = 0;
     for (const PreparedRays* rays : group.rays)
       for (const TechniqueChoice& technique : plan_.techniques) {
+        if (!is_planned(technique, group.scene.id)) continue;
         const std::string why = why_left_out(plan_.suite, {group.scene, *rays->spec, rays->set.rays.size(),
                                                            technique, group.scalar, group.intersector});
         if (why.empty()) continue;
@@ -134,6 +135,8 @@ class Runner {
 report::Report run(const Plan& plan, report::Run run, RunObserver& observer,
                    const std::function<bool()>& stopped) {
   report::Report report{.run = std::move(run), .environment = environment()};
+  report.run.bounds = kBoundsRuleNames[static_cast<std::size_t>(plan.suite.bounds)];
+  if (!plan.suite.published.empty()) report.run.published = plan.published.source;
   Runner runner(plan, report, observer, stopped);
   report.run.seconds = seconds_of([&] {
     for (const std::string& scene : plan.suite.scenes)

@@ -36,7 +36,7 @@ TechniqueChoice choose_technique(std::string_view text) {
   if (!spec.size.empty() || !spec.form.empty())
     throw InputError(
         fmt::format("technique '{}': write {} or {}(key=value,...)", text, spec.name, spec.name));
-  return {&entry, Arguments(entry.info.parameters, spec.arguments, spec.name), std::string(text)};
+  return {&entry, Arguments(entry.info.parameters, spec.arguments, spec.name), std::string(text), {}};
 }
 
 }  // namespace rayshoot

@@ -17,6 +17,8 @@ struct TechniqueChoice {
   Arguments arguments;
   /// What was asked for, for example "uniform_grid(density=2)".
   std::string spec;
+  /// Ids of the scenes on which it is to run; empty for all.
+  std::vector<std::string> scenes{};
 };
 
 /// The technique that `spec`, a name or name(key=value,...), asks for; throws InputError on an unknown name

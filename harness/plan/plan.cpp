@@ -41,13 +41,40 @@ std::vector<RaySpec> resolve_all_rays(const Suite& suite) {
   return rays;
 }
 
-/// The techniques asked for; "all" stands for every one, "baselines" for the points of comparison.
-std::vector<TechniqueChoice> choose_all_techniques(const Suite& suite) {
+/// The published figures of a suite, their scenes by id.
+Published published_for(const Suite& suite) {
+  if (suite.published.empty()) return {};
+  Published published = load_published(suite.published);
+  for (PublishedRow& row : published.rows) row.scene = scene_id(row.scene, suite.tessellation);
+  for (PublishedClaim& claim : published.claims) {
+    claim.scene = scene_id(claim.scene, suite.tessellation);
+    for (const std::string* technique : {&claim.first, &claim.second}) choose_technique(*technique);
+  }
+  return published;
+}
+
+/// Append what published figures are about, each technique for its scenes.
+void append_published(std::vector<TechniqueChoice>& techniques, const Published& published) {
+  for (const PublishedRow& row : published.rows) {
+    append_new(techniques, choose_technique(row.technique), [](auto& t) { return t.spec; });
+    const auto same = [&](const TechniqueChoice& choice) { return choice.spec == row.technique; };
+    append_new(std::find_if(techniques.begin(), techniques.end(), same)->scenes, row.scene,
+               [](auto& id) { return id; });
+  }
+}
+
+/// The techniques asked for; "all" stands for every one, "baselines" for the points of comparison, "published" for those
+/// of the published figures.
+std::vector<TechniqueChoice> choose_all_techniques(const Suite& suite, const Published& published) {
   std::vector<TechniqueChoice> techniques;
   const auto add = [&](const std::string& text) {
     append_new(techniques, choose_technique(text), [](auto& t) { return t.spec; });
   };
   for (const std::string& text : suite.techniques) {
+    if (text == "published" && !suite.published.empty()) {
+      append_published(techniques, published);
+      continue;
+    }
     if (text != "all" && text != "baselines") {
       add(text);
       continue;
@@ -94,14 +121,31 @@ Plan make_plan(Suite suite) {
   require_known("scalar", suite.scalars, {"float", "double"});
   require_known("intersector", suite.intersectors, {kIntersectorNames.begin(), kIntersectorNames.end()});
   Plan plan{.suite = std::move(suite)};
+  plan.published = published_for(plan.suite);
+  if (plan.suite.scenes.empty())
+    for (const PublishedRow& row : plan.published.rows) plan.suite.scenes.push_back(row.scene);
   // Name each scene canonically, and only once.
   std::vector<std::string> ids;
   for (const std::string& spec : plan.suite.scenes)
     append_new(ids, scene_id(spec, plan.suite.tessellation), [](auto& id) { return id; });
   plan.suite.scenes = std::move(ids);
   plan.rays = resolve_all_rays(plan.suite);
-  plan.techniques = choose_all_techniques(plan.suite);
+  plan.techniques = choose_all_techniques(plan.suite, plan.published);
   return plan;
+}
+
+bool is_planned(const TechniqueChoice& technique, const std::string& scene) {
+  return technique.scenes.empty() ||
+         std::find(technique.scenes.begin(), technique.scenes.end(), scene) != technique.scenes.end();
+}
+
+std::size_t Plan::cells() const {
+  std::size_t pairs = 0;
+  for (const std::string& scene : suite.scenes)
+    pairs += static_cast<std::size_t>(
+        std::count_if(techniques.begin(), techniques.end(),
+                      [&](const TechniqueChoice& technique) { return is_planned(technique, scene); }));
+  return pairs * rays.size() * suite.scalars.size() * suite.intersectors.size();
 }
 
 std::string why_left_out(const Suite& suite, const CellFacts& cell) {

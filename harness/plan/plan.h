@@ -1,6 +1,7 @@
 #pragma once
 
 #include "harness/plan/catalogue.h"
+#include "harness/plan/published.h"
 #include "harness/plan/suite.h"
 #include "scenes/rays/load_rays.h"
 
@@ -11,13 +12,15 @@ struct Plan {
   Suite suite;
   std::vector<RaySpec> rays;
   std::vector<TechniqueChoice> techniques;
+  /// What the run is held against; scenes by their ids.
+  Published published{};
 
   /// Number of combinations of scene, rays, technique, scalar and intersector, left out ones included.
-  std::size_t cells() const {
-    return suite.scenes.size() * rays.size() * techniques.size() * suite.scalars.size() *
-           suite.intersectors.size();
-  }
+  std::size_t cells() const;
 };
+
+/// Whether the technique is to run on the scene of that id.
+bool is_planned(const TechniqueChoice& technique, const std::string& scene_id);
 
 /// Throws InputError when something in the suite is not known or not accepted.
 Plan make_plan(Suite suite);

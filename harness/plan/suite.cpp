@@ -2,89 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <limits>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
 #include "harness/plan/builtin.h"
+#include "harness/plan/suite_json.h"
 
 namespace rayshoot {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// A place in a suite, for messages: "suite quick: scenes[2]".
-struct Place {
-  std::string path;
-
-  Place operator/(const std::string& member) const { return {path + ": " + member}; }
-  Place operator[](std::size_t index) const { return {fmt::format("{}[{}]", path, index)}; }
-  InputError refuse(const std::string& why) const { return InputError(path + ": " + why); }
-};
-
-/// How to read each member of an object; a member without an entry is an error.
-using Readers = std::map<std::string, std::function<void(const Json&, const Place&)>>;
-
-void read_object(const Json& json, const Place& place, const Readers& readers) {
-  if (!json.is_object()) throw place.refuse("must be an object");
-  std::vector<std::string> known;
-  for (const auto& reader : readers) known.push_back(reader.first);
-  for (const auto& [member, value] : json.items()) {
-    const auto reader = readers.find(member);
-    if (reader == readers.end()) throw place.refuse(unknown_name("member", member, known));
-    reader->second(value, place / member);
-  }
-}
-
-template <class Number>
-auto number(Number& target, double minimum, double maximum) {
-  return [&target, minimum, maximum](const Json& json, const Place& place) {
-    const bool fits = std::is_integral_v<Number> ? json.is_number_integer() : json.is_number();
-    if (!fits || json.get<double>() < minimum || json.get<double>() > maximum)
-      throw place.refuse(fmt::format("{} is not accepted; it takes {} {:g} to {:g}", json.dump(),
-                                     std::is_integral_v<Number> ? "an integer" : "a number", minimum,
-                                     maximum));
-    target = json.get<Number>();
-  };
-}
-
-template <class Number>
-auto optional_number(std::optional<Number>& target, double minimum, double maximum) {
-  return [&target, minimum, maximum](const Json& json, const Place& place) {
-    number(target.emplace(), minimum, maximum)(json, place);
-  };
-}
-
-std::string text_of(const Json& json, const Place& place) {
-  if (!json.is_string()) throw place.refuse(fmt::format("{} is not accepted; it takes text", json.dump()));
-  return json.get<std::string>();
-}
-
-auto text(std::string& target) {
-  return [&target](const Json& json, const Place& place) { target = text_of(json, place); };
-}
-
-auto flag(bool& target) {
-  return [&target](const Json& json, const Place& place) {
-    if (!json.is_boolean())
-      throw place.refuse(fmt::format("{} is not accepted; it takes true or false", json.dump()));
-    target = json.get<bool>();
-  };
-}
-
-/// A list, or one element that stands for a list of one; `read` is called for each element.
-void for_each(const Json& json, const Place& place,
-              const std::function<void(const Json&, const Place&)>& read) {
-  if (!json.is_array()) return read(json, place);
-  if (json.empty()) throw place.refuse("the list is empty");
-  for (std::size_t i = 0; i < json.size(); ++i) read(json[i], place[i]);
-}
 
 /// A parameter's value as it is written in a specification.
 std::string value_text(const Json& json, const Place& place) {
@@ -140,6 +69,16 @@ auto specifications(std::vector<std::string>& target) {
   };
 }
 
+auto bounds_rule(BoundsRule& target) {
+  return [&target](const Json& json, const Place& place) {
+    const std::string name = text_of(json, place);
+    const std::vector<std::string> known(kBoundsRuleNames.begin(), kBoundsRuleNames.end());
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) throw place.refuse(unknown_name("bounds rule", name, known));
+    target = static_cast<BoundsRule>(found - known.begin());
+  };
+}
+
 auto integers(std::vector<int>& target, double minimum, double maximum) {
   return [&target, minimum, maximum](const Json& json, const Place& place) {
     target.clear();
@@ -175,6 +114,8 @@ Readers suite_readers(Suite& suite) {
           {"scalars", specifications(suite.scalars)},
           {"intersectors", specifications(suite.intersectors)},
           {"exclude", exclusions(suite.exclude)},
+          {"bounds", bounds_rule(suite.bounds)},
+          {"published", text(suite.published)},
           {"seed", number(suite.seed, 0, any)},
           {"resolution", optional_number(suite.resolution, 1, 16384)},
           {"rules", [&suite](const Json& json, const Place& place) { suite.rules = text_of(json, place); }},
@@ -190,24 +131,6 @@ Readers suite_readers(Suite& suite) {
           {"strict_tests", number(suite.strict_tests, 0, any)}};
 }
 
-/// Parse JSON with comments; a member that is given twice is an error.
-Json parse_json(const std::string& text, const Place& place) {
-  std::vector<std::set<std::string>> members;
-  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) members.emplace_back();
-    if (event == Json::parse_event_t::object_end) members.pop_back();
-    if (event == Json::parse_event_t::key && !members.back().insert(parsed.get<std::string>()).second)
-      throw place.refuse(fmt::format("member '{}' is given twice", parsed.get<std::string>()));
-    return true;
-  };
-  try {
-    return Json::parse(text, watch, /*allow_exceptions=*/true, /*ignore_comments=*/true);
-  } catch (const Json::parse_error& error) {
-    const std::string message = error.what();
-    throw place.refuse("not JSON:" + message.substr(message.find(']') + 1));
-  }
-}
-
 }  // namespace
 
 Suite parse_suite(const std::string& text, const std::string& name) {
@@ -215,7 +138,7 @@ Suite parse_suite(const std::string& text, const std::string& name) {
   Suite suite;
   suite.name = name;
   read_object(parse_json(text, place), place, suite_readers(suite));
-  if (suite.scenes.empty()) throw place.refuse("has no scenes");
+  if (suite.scenes.empty() && suite.published.empty()) throw place.refuse("has no scenes");
   return suite;
 }
 

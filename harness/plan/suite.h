@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/core/geometry.h"
 #include "scenes/core/spec.h"
 
 namespace rayshoot {
@@ -23,6 +24,11 @@ struct Suite {
   /// Specifications. Lists of parameter values in a suite file have become one specification each.
   std::vector<std::string> scenes, rays{"whitted"}, techniques{"all"}, scalars{"float"}, intersectors{"fast"};
   std::vector<Exclusion> exclude;
+  /// How bounds are drawn around objects.
+  BoundsRule bounds = BoundsRule::tight;
+  /// Published figures to hold the run against, by name; empty for none. Their scenes stand in for `scenes` where it is
+  /// empty, and "published" among `techniques` for what they are about, each on its scenes alone.
+  std::string published;
 
   std::uint64_t seed = 1;
   /// Given to every ray distribution that has a parameter of that name, unless its specification gives

@@ -17,6 +17,8 @@ inline constexpr std::array kStatusNames = {"ok", "wrong", "graded", "failed"};
 inline constexpr std::array kScalarNames = {"float", "double"};
 inline constexpr std::array kIntersectorNames = {"fast", "watertight", "exact"};
 inline constexpr std::array kPropertyNames = {"as_oracle", "always_hit", "never_hit", "same_as_base"};
+inline constexpr std::array kBoundsNames = {"tight", "havran"};
+inline constexpr std::array kRelationNames = {"faster", "similar"};
 inline constexpr std::array kQueryNames = {"closest", "any", "closest+any"};
 
 /// T, to be read into, or const T, to be written.
@@ -32,6 +34,8 @@ void members(T& run, Visitor& visitor) {
   visitor.required("git_commit", run.git_commit);
   visitor.required("git_dirty", run.git_dirty);
   visitor.required("seed", run.seed);
+  visitor.optional_choice("bounds", run.bounds, kBoundsNames);
+  visitor.optional("published", run.published);
   visitor.required("complete", run.complete);
 }
 
@@ -165,6 +169,25 @@ void members(T& times, Visitor& visitor) {
   visitor.required("trace_ns", times.trace_ns);
 }
 
+template <Some<PublishedFigure> T, class Visitor>
+void members(T& figure, Visitor& visitor) {
+  visitor.required("figure", figure.figure);
+  visitor.required("label", figure.label);
+  visitor.required("theirs", figure.theirs);
+  visitor.optional("ours", figure.ours);
+}
+
+template <Some<Claim> T, class Visitor>
+void members(T& claim, Visitor& visitor) {
+  visitor.required("scene", claim.scene);
+  visitor.choice("scalar", claim.scalar, kScalarNames);
+  visitor.required("first", claim.first);
+  visitor.required("second", claim.second);
+  visitor.choice("relation", claim.relation, kRelationNames);
+  visitor.optional("first_over_second", claim.first_over_second);
+  visitor.optional("holds", claim.holds);
+}
+
 template <Some<Measurement> T, class Visitor>
 void members(T& measurement, Visitor& visitor) {
   visitor.required("scene", measurement.scene);
@@ -185,6 +208,7 @@ void members(T& measurement, Visitor& visitor) {
   visitor.optional("trace_ns", measurement.trace_ns);
   visitor.required("trace_threads", measurement.trace_threads);
   visitor.optional("threads", measurement.threads);
+  visitor.optional("published", measurement.published);
 }
 
 template <Some<Grading> T, class Visitor>
@@ -233,6 +257,7 @@ void members(T& report, Visitor& visitor) {
   visitor.required("ray_sets", report.ray_sets);
   visitor.required("measurements", report.measurements);
   visitor.required("left_out", report.left_out);
+  visitor.optional("claims", report.claims);
   visitor.optional("gradings", report.gradings);
 }
 

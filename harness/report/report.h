@@ -23,6 +23,10 @@ struct Run {
   std::string git_commit;
   bool git_dirty = false;
   std::uint64_t seed = 1;
+  /// How bounds were drawn around objects: "tight" or "havran".
+  std::string bounds = "tight";
+  /// Source of the published figures that the run was held against.
+  std::optional<std::string> published;
   /// False when the run was interrupted: the report then holds what had finished.
   bool complete = true;
 };
@@ -150,6 +154,26 @@ struct ThreadTimes {
 
 using ConfigValue = std::variant<bool, std::int64_t, double, std::string>;
 
+/// A published figure of a technique on a scene and ours, which is absent where it was not measured.
+struct PublishedFigure {
+  std::string figure;
+  /// What the source calls the technique.
+  std::string label;
+  double theirs = 0;
+  std::optional<double> ours;
+};
+
+/// What was published about the times of two techniques on a scene, "faster" or "similar", and what ours are.
+struct Claim {
+  std::string scene;
+  std::string scalar;
+  std::string first, second;
+  std::string relation;
+  /// Absent where one of them was not timed.
+  std::optional<double> first_over_second;
+  std::optional<bool> holds;
+};
+
 struct Measurement {
   std::string scene;
   std::string rays;
@@ -174,6 +198,8 @@ struct Measurement {
   int trace_threads = 1;
   /// Thread scaling, where asked for.
   std::vector<ThreadTimes> threads;
+  /// Where figures for this cell were published.
+  std::vector<PublishedFigure> published;
 };
 
 /// Answers of a technique to the rays of one setting of a torture case, held against exact arithmetic and against what
@@ -228,6 +254,8 @@ struct Report {
   std::vector<RaySet> ray_sets;
   std::vector<Measurement> measurements;
   std::vector<LeftOutCell> left_out;
+  /// What was published of times, where the run was held against it.
+  std::vector<Claim> claims;
   /// What `rayshoot torture` found out.
   std::vector<Grading> gradings;
 };

@@ -99,6 +99,25 @@ TEST(SuiteTest, BuiltInSuitesAreAccepted) {
   for (const std::string& name : builtin_suites()) EXPECT_GT(make_plan(load_suite(name)).cells(), 0u) << name;
 }
 
+TEST(SuiteTest, PublishedTechniquesRunOnTheirScenesAlone) {
+  const Plan plan = make_plan(load_suite("havran-1999"));
+  const auto choice = std::find_if(plan.techniques.begin(), plan.techniques.end(), [](const auto& technique) {
+    return technique.spec == "uniform_grid(resolution=46x46x3,mailbox=off)";
+  });
+  ASSERT_NE(choice, plan.techniques.end());
+  EXPECT_TRUE(is_planned(*choice, "balls:4/curves"));
+  EXPECT_FALSE(is_planned(*choice, "tetra:6/curves"));
+  EXPECT_EQ(plan.cells(), plan.published.rows.size());
+}
+
+TEST(SuiteTest, PublishedFiguresAreRefusedUnlessTheyAreKnown) {
+  EXPECT_THROW(load_published("havran"), InputError);
+  EXPECT_THROW(parse_published(R"({"rows": [{"scene": "balls", "figures": {"nodes": 1}}]})", "test"),
+               InputError);
+  EXPECT_THROW(parse_published(R"({"claims": [{"relation": "slower"}]})", "test"), InputError);
+  EXPECT_THAT(refusal(R"({"scenes": ["balls"], "bounds": "wide"})"), HasSubstr("known: tight, havran"));
+}
+
 TEST(SuiteTest, AnUnknownSuiteIsAnErrorThatNamesTheKnownOnes) {
   EXPECT_THROW(load_suite("quik"), InputError);
   try {

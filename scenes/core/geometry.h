@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,12 @@ namespace rayshoot {
 
 /// Which side of a cone or cylinder can be hit; spheres, triangles and polygons are always two-sided.
 enum class ConeSides { both, outside };
+
+/// How bounds are drawn around objects. tight: as near as rounding allows. havran: as Havran's tracer GOLEM did, so that
+/// structures come out as he published them: a polygon's box is widened by 0.02 on both sides of every axis along which
+/// it is thinner than that, and the box of the scene by 0.001 on every side.
+enum class BoundsRule { tight, havran };
+inline constexpr std::array<const char*, 2> kBoundsRuleNames = {"tight", "havran"};
 
 /// The ray-object test of an intersector: for a triangle, or for a polygon and its vertices.
 template <Intersector kIntersector, class Real>
@@ -46,7 +53,7 @@ template <class Real>
 class Geometry {
  public:
   explicit Geometry(const Scene& scene, ConeSides cone_sides = ConeSides::both,
-                    Intersector intersector = Intersector::fast);
+                    Intersector intersector = Intersector::fast, BoundsRule bounds_rule = BoundsRule::tight);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(references_.size()); }
   bool triangles_only() const { return mostly_triangles_ && others_ == 0; }
@@ -91,7 +98,12 @@ class Geometry {
   ConeSides cone_sides() const { return cone_sides_; }
   Intersector intersector() const { return intersector_; }
 
+  BoundsRule bounds_rule() const { return bounds_rule_; }
+
   const std::vector<SetAside>& set_aside() const { return set_aside_; }
+  /// Throws InputError, in the name of `scene`, where there were objects and every one was set aside: a picture of nothing
+  /// is not what was asked for.
+  void require_objects(const std::string& scene) const;
   std::size_t bytes() const;
 
   /// The same objects in another order: object i of the result is object `order[i]` of this geometry. Objects
@@ -103,6 +115,8 @@ class Geometry {
   static constexpr std::uint32_t kIndexMask = (1u << kIndexBits) - 1;
 
   Geometry() = default;
+  Box<Real> tight_bounds(std::uint32_t object) const;
+  [[gnu::noinline, gnu::cold]] Box<Real> havran_bounds(std::uint32_t object) const;
   [[gnu::noinline, gnu::cold]] Real other_hit_distance(std::uint32_t object, const Ray<Real>& ray) const {
     return hit_distance(object, ray);
   }
@@ -126,6 +140,7 @@ class Geometry {
   Box<Real> bounds_;
   ConeSides cone_sides_ = ConeSides::both;
   Intersector intersector_ = Intersector::fast;
+  BoundsRule bounds_rule_ = BoundsRule::tight;
   std::vector<SetAside> set_aside_;
 };
 
@@ -152,6 +167,13 @@ inline Real Geometry<Real>::hit_distance(std::uint32_t object, const Ray<Real>& 
 
 template <class Real>
 inline Box<Real> Geometry<Real>::bounds(std::uint32_t object) const {
+  if (bounds_rule_ == BoundsRule::havran) [[unlikely]]
+    return havran_bounds(object);
+  return tight_bounds(object);
+}
+
+template <class Real>
+inline Box<Real> Geometry<Real>::tight_bounds(std::uint32_t object) const {
   switch (kind(object)) {
     case ObjectKind::triangle:
       return rayshoot::bounds(triangle(object));

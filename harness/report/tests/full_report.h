@@ -14,6 +14,8 @@ inline report::Report full_report() {
                 .git_commit = "0123456789abcdef",
                 .git_dirty = true,
                 .seed = 18446744073709551615u,
+                .bounds = "havran",
+                .published = "a paper",
                 .complete = false};
   report.environment = {.cpu = "A processor",
                         .cores = 2,
@@ -72,9 +74,11 @@ inline report::Report full_report() {
        .build_ns = {1000, 1001.5},
        .trace_ns = {3000, 3100, 3050},
        .trace_threads = 1,
-       .threads = {{2, {1600, 1650}}}}};
+       .threads = {{2, {1600, 1650}}},
+       .published = {{"references", "a grid", 120, 121}}}};
   report.left_out = {
       {"balls:2/curves", "balls:2/curves/light", "exhaustive", "double", "exact", "it is slow"}};
+  report.claims = {{"balls:2/curves", "float", "bvh_sah", "exhaustive", "faster", 0.25, true}};
   report.gradings = {
       {.torture_case = "closed_vertex",
        .setting = "level=3",

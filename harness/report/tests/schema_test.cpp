@@ -88,6 +88,8 @@ TEST(Schema, HasTheMembersOfTheCode) {
                                                    {"left_out_cell", report["left_out"][0]},
                                                    {"errors", cell["errors"]},
                                                    {"ulps", cell["errors"]["ulps_of_t"]},
+                                                   {"published_figure", cell["published"][0]},
+                                                   {"claim", report["claims"][0]},
                                                    {"grading", report["gradings"][0]}};
   EXPECT_EQ(std::size(examples), schema["definitions"].size());
   for (const auto& [name, object] : examples) {

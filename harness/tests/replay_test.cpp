@@ -1,0 +1,104 @@
+// What others published on the same scenes, replayed: structures and work are counts and depend on no machine. Tests whose
+// names begin with Long are labelled long.
+#include <gmock/gmock.h>
+
+#include "harness/measure/run.h"
+
+namespace rayshoot::test {
+namespace {
+
+class SilentObserver final : public RunObserver {
+ public:
+  void doing(const std::string&) override {}
+  void finished(std::size_t) override {}
+};
+
+report::Report replayed(const std::string& suite_name, const std::vector<std::string>& scenes,
+                        const std::string& techniques, const std::string& rays = {}) {
+  Suite suite = load_suite(suite_name);
+  if (!scenes.empty()) suite.scenes = scenes;
+  if (!rays.empty()) suite.rays = {rays};
+  Plan plan = make_plan(suite);
+  std::erase_if(plan.techniques,
+                [&](const TechniqueChoice& choice) { return choice.entry->info.id != techniques; });
+  SilentObserver observer;
+  return run(plan, {}, observer, [] { return false; });
+}
+
+/// How far our figures may be from the published ones, relatively; figures that are not here are not looked at.
+using Limits = std::map<std::string, double>;
+
+/// Hold every measurement of a report against what was published for it; returns how many figures were.
+int expect_within(const report::Report& report, const Limits& limits) {
+  int figures = 0;
+  for (const report::Measurement& measurement : report.measurements) {
+    EXPECT_EQ(measurement.verdict.status, report::Status::ok);
+    for (const report::PublishedFigure& figure : measurement.published) {
+      const auto limit = limits.find(figure.figure);
+      if (limit == limits.end()) continue;
+      EXPECT_NEAR(figure.ours.value_or(-1), figure.theirs, limit->second * figure.theirs)
+          << measurement.scene << ", " << figure.label << ": " << figure.figure;
+      ++figures;
+    }
+  }
+  return figures;
+}
+
+/// Cells per ray, his traversal steps of grids, are met within 0.1: shadow rays here end at any occluder that they
+/// find, his at one inside the cell that they are in.
+void expect_cells(const report::Report& report) {
+  for (const report::Measurement& measurement : report.measurements)
+    for (const report::PublishedFigure& figure : measurement.published) {
+      if (figure.figure != "cells_per_ray") continue;
+      EXPECT_NEAR(figure.ours.value_or(-1), figure.theirs, 0.1) << measurement.scene << ", " << figure.label;
+    }
+}
+
+/// Tests with objects are met within 6 %: for the same reason ours are fewer.
+constexpr double kObjectTests = 0.06;
+
+const Limits kStructure{{"leaves", 0}, {"empty_leaves", 0.001}, {"references", 0.02}};
+
+Limits with(Limits limits, const std::string& figure, double limit) {
+  limits[figure] = limit;
+  return limits;
+}
+
+TEST(ReplayTest, HavransUniformGridsHaveHisCells) {
+  const report::Report report = replayed("havran-1999", {"balls:4", "tetra:6"}, "uniform_grid", "whitted@9");
+  EXPECT_EQ(expect_within(report, kStructure), 18);
+  EXPECT_EQ(report.run.bounds, "havran");
+}
+
+TEST(ReplayTest, HavransUniformGridsDoHisWorkOnTetra) {
+  const report::Report report = replayed("havran-1999", {"tetra:6"}, "uniform_grid");
+  EXPECT_EQ(expect_within(report, {{"object_tests_per_ray", kObjectTests}}), 3);
+  expect_cells(report);
+}
+
+TEST(ReplayTest, HavransOctreesOfTetraHaveHisNodes) {
+  report::Report report = replayed("havran-1999", {"tetra:6"}, "octree_glassner", "whitted@9");
+  // At depth 7 ours does not divide where that separates nothing.
+  std::erase_if(report.measurements,
+                [](const auto& m) { return m.published.at(0).label == "Octree84-C, depth 7"; });
+  EXPECT_EQ(
+      expect_within(report, {{"interior_nodes", 0}, {"leaves", 0}, {"empty_leaves", 0}, {"references", 0}}),
+      12);
+}
+
+TEST(LongReplayTest, HavransUniformGridsWithoutGlass) {
+  const Limits limits = with(kStructure, "object_tests_per_ray", kObjectTests);
+  const report::Report report = replayed("havran-1999", {"balls:4", "teapot:12", "tetra:6"}, "uniform_grid");
+  EXPECT_EQ(expect_within(report, limits), 36);
+  expect_cells(report);
+}
+
+TEST(LongReplayTest, HavransUniformGridsWithConesAndCylinders) {
+  const Limits limits{{"leaves", 0}, {"references", 0.05}, {"object_tests_per_ray", kObjectTests}};
+  const report::Report report = replayed("havran-1999", {"rings:7", "tree:11"}, "uniform_grid");
+  EXPECT_EQ(expect_within(report, limits), 18);
+  expect_cells(report);
+}
+
+}  // namespace
+}  // namespace rayshoot::test
