@@ -47,14 +47,14 @@ void emit(SceneBuilder& builder, const Gear& gear) {
   const auto whole_gear = builder.group();
   const Vec3d down{0, 0, -gear.thickness};
   const Outline top = outline(gear, 1);
-  std::optional<SceneBuilder::GroupScope> tooth;
   builder.polygon(top);
-  for (std::size_t i = 0; i < top.size(); ++i) {
-    if (i % 4 == 0) tooth.emplace(builder);
-    const Vec3d &a = top[i], &b = top[(i + 1) % top.size()];
-    builder.polygon(std::array{a, a + down, b + down, b});
+  for (std::size_t tooth = 0; tooth < top.size(); tooth += 4) {
+    const auto faces_of_tooth = builder.group();
+    for (std::size_t i = tooth; i < tooth + 4; ++i) {
+      const Vec3d &a = top[i], &b = top[(i + 1) % top.size()];
+      builder.polygon(std::array{a, a + down, b + down, b});
+    }
   }
-  tooth.reset();
   builder.polygon(outline({gear.centre + down, gear.radius, gear.thickness, gear.phase}, -1));
 }
 
