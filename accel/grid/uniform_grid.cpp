@@ -60,7 +60,8 @@ class CellAssignment {
   template <class Visit>
   void operator()(std::uint32_t object, const Visit& visit) const {
     const CellRange range = grid_.overlapped_by(geometry_.bounds(object));
-    if (!exact_ || range.cells() == 1 || !visit_surface(object, range, visit)) visit_all(range, visit);
+    if (!exact_ || range.cells() == 1 || !visit_surface(object, range, visit))
+      grid_.for_each_cell(range, visit);
   }
 
   /// An upper bound of the number of those cells. A convex surface passes at most about twice through the
@@ -72,13 +73,6 @@ class CellAssignment {
   }
 
  private:
-  template <class Visit>
-  void visit_all(const CellRange& range, const Visit& visit) const {
-    for (std::int32_t z = range.first[2]; z <= range.last[2]; ++z)
-      for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
-        for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) visit(grid_.number(x, y, z));
-  }
-
   /// Halve the block of cells, again and again, where the surface reaches; true when it reaches any.
   template <class Visit>
   bool visit_surface(std::uint32_t object, const CellRange& range, const Visit& visit) const {
@@ -208,7 +202,8 @@ class UniformGrid {
   void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     if (grid_.cells() == 0) return;
     const auto walk = [&](const auto& cells) {
-      walk_grid(grid_, ray, count, reach, [&](std::uint64_t cell) { return visit(cells.objects(cell)); });
+      walk_grid(grid_, ray, Crossings<Real>(ray), count, reach,
+                [&](std::uint64_t cell) { return visit(cells.objects(cell)); });
     };
     if (const CellLists* dense = std::get_if<CellLists>(&cells_))
       walk(*dense);

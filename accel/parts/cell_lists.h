@@ -13,6 +13,14 @@
 
 namespace rayshoot {
 
+/// Call visit(i) for all i below `count`, by several threads where that pays.
+template <class Index, class Visit>
+void for_each_below(Index count, const Visit& visit) {
+  constexpr Index worth_sharing = 1024;
+  if (count >= worth_sharing) return tbb::parallel_for(Index{0}, count, visit);
+  for (Index i = 0; i < count; ++i) visit(i);
+}
+
 /// For every cell the objects it refers to, in increasing order, in an array of all cells: 4 bytes a cell and
 /// 4 a reference. Neither this nor the next class holds more than 2^32 - 1 references. Both ask for the cells
 /// of an object twice, from several threads: `for_each_cell(object, visit)` calls visit(cell) once for each.
@@ -24,27 +32,45 @@ class CellLists {
   CellLists(std::uint64_t cells, std::uint32_t objects, const ForEachCell& for_each_cell)
       : first_(cells + 1, 0) {
     // Count the references of every cell; their running sum says where each list ends.
-    tbb::parallel_for(std::uint32_t{0}, objects, [&](std::uint32_t object) {
+    for_each_below(objects, [&](std::uint32_t object) {
       for_each_cell(object, [&](std::uint64_t cell) { shared_first(cell).fetch_add(1, kRelaxed); });
     });
     std::inclusive_scan(first_.begin(), first_.end(), first_.begin());
     references_.resize(first_.back());
 
     // Fill every list from its end, after which the array says where each begins.
-    tbb::parallel_for(std::uint32_t{0}, objects, [&](std::uint32_t object) {
+    for_each_below(objects, [&](std::uint32_t object) {
       for_each_cell(object, [&](std::uint64_t cell) {
         references_[shared_first(cell).fetch_sub(1, kRelaxed) - 1] = object;
       });
     });
 
     // Sort them, since threads came as they liked.
-    tbb::parallel_for(std::uint64_t{0}, cells, [&](std::uint64_t cell) {
+    for_each_below(cells, [&](std::uint64_t cell) {
       std::sort(references_.data() + first_[cell], references_.data() + first_[cell + 1]);
     });
   }
 
   std::span<const std::uint32_t> objects(std::uint64_t cell) const {
     return {references_.data() + first_[cell], references_.data() + first_[cell + 1]};
+  }
+
+  /// Shorten lists, from the first cell on: `shorten(cell, list)` changes the list in place, or not, and returns how many
+  /// of its references remain.
+  template <class Shorten>
+  void shorten_lists(const Shorten& shorten) {
+    std::uint32_t begin = 0, kept = 0;
+    for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+      const std::uint32_t end = first_[cell + 1];
+      const std::span<std::uint32_t> list(references_.data() + begin, references_.data() + end);
+      const auto length = static_cast<std::uint32_t>(shorten(cell, list));
+      std::copy_n(list.begin(), length, references_.begin() + kept);
+      first_[cell] = kept;
+      kept += length, begin = end;
+    }
+    if (!first_.empty()) first_.back() = kept;
+    references_.resize(kept);
+    references_.shrink_to_fit();
   }
 
   std::uint64_t references() const { return references_.size(); }
@@ -125,12 +151,11 @@ class HashedCellLists {
   template <class ForEachCell>
   static std::vector<Reference> sorted_references(std::uint32_t objects, const ForEachCell& for_each_cell) {
     std::vector<std::size_t> end(objects, 0);
-    tbb::parallel_for(std::uint32_t{0}, objects, [&](std::uint32_t object) {
-      for_each_cell(object, [&](std::uint64_t) { ++end[object]; });
-    });
+    for_each_below(
+        objects, [&](std::uint32_t object) { for_each_cell(object, [&](std::uint64_t) { ++end[object]; }); });
     std::inclusive_scan(end.begin(), end.end(), end.begin());
     std::vector<Reference> references(objects == 0 ? 0 : end.back());
-    tbb::parallel_for(std::uint32_t{0}, objects, [&](std::uint32_t object) {
+    for_each_below(objects, [&](std::uint32_t object) {
       for_each_cell(object, [&](std::uint64_t cell) { references[--end[object]] = {cell, object}; });
     });
     tbb::parallel_sort(references);

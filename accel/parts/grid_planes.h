@@ -77,6 +77,19 @@ class GridPlanes {
     return range;
   }
 
+  /// Call visit(cell) with the number of each cell that shares a point with a box.
+  template <class Visit>
+  void for_each_cell(const Box<Real>& box, const Visit& visit) const {
+    for_each_cell(overlapped_by(box), visit);
+  }
+  /// The same for each cell of a block.
+  template <class Visit>
+  void for_each_cell(const CellRange& range, const Visit& visit) const {
+    for (std::int32_t z = range.first[2]; z <= range.last[2]; ++z)
+      for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
+        for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) visit(number(x, y, z));
+  }
+
   /// The box of a block of cells.
   Box<Real> box(const CellRange& range) const {
     Box<Real> box;
@@ -85,6 +98,17 @@ class GridPlanes {
       box.hi[axis] = planes_[axis][range.last[axis] + 1];
     }
     return box;
+  }
+
+  /// The cell of that number, as a block of one.
+  CellRange block(std::uint64_t cell) const {
+    CellRange block;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto cells = static_cast<std::uint64_t>(resolution_[axis]);
+      block.first[axis] = block.last[axis] = static_cast<std::int32_t>(cell % cells);
+      cell /= cells;
+    }
+    return block;
   }
 
   std::size_t bytes() const {

@@ -141,10 +141,9 @@ template <class Real, class Counter, class Visit, class Reach>
 /// Crossings are computed from the planes, never accumulated. Every cell is visited in which a hit can lie: whose
 /// three intervals of parameters, all closed and wider than exact, share one with (t_min, reach].
 template <class Real, class Counter, class Reach, class Visit>
-void walk_grid(const GridPlanes<Real>& grid, const Ray<Real>& ray, Counter count, const Reach& reach,
-               const Visit& visit) {
+void walk_grid(const GridPlanes<Real>& grid, const Ray<Real>& ray, const Crossings<Real>& crossings,
+               Counter count, const Reach& reach, const Visit& visit) {
   // Leave out rays that miss the grid.
-  const Crossings<Real> crossings(ray);
   const Interval<Real> inside = crossings.inside(grid.bounds());
   const bool meets = inside.enter <= inside.exit && inside.exit > ray.t_min && inside.enter <= reach() &&
                      ray.t_min < reach() && inside.enter < Box<Real>::infinity();

@@ -31,7 +31,7 @@ template <class Real>
 std::vector<std::uint64_t> walked(const GridPlanes<Real>& grid, const Ray<Real>& ray) {
   std::vector<std::uint64_t> cells;
   const auto reach = [&] { return ray.t_max; };
-  walk_grid(grid, ray, NoCount{}, reach, [&](std::uint64_t cell) {
+  walk_grid(grid, ray, Crossings<Real>(ray), NoCount{}, reach, [&](std::uint64_t cell) {
     cells.push_back(cell);
     return false;
   });

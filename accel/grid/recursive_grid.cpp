@@ -1,0 +1,113 @@
+// Recursive grid, Jevans' adaptive 3-D grid (Arvo & Kirk §5.1, nonuniform subdivision)
+// D. Jevans, B. Wyvill, "Adaptive voxel subdivision for ray tracing", 1989.
+//
+// Idea       A grid over the scene, and in every cell with too many objects a grid of its own, as fine as those objects
+//            ask for, and so on. A ray walks each of them with the three-dimensional digital differential analyser: it
+//            comes quickly through open space and finds small cells where the scene is crowded. The tree is shallow
+//            where an octree, with its eight cells a level, is deep.
+// Parameters resolution      heterogeneous: cubic cells
+//            density         cells per object of the outermost grid; 3, fewer than a uniform grid's 5, for crowded places get
+//                            grids of their own
+//            nested_density  the same for grids within cells; 1
+//            max_objects     more in a cell make a grid; 16, since to enter a nested grid costs a ray as much as some tests
+//            max_depth       levels of grids; 4, as Jevans (1990, §2) says of trees that do
+//            mailbox         auto: where some object is listed twice
+// Cost       steps at each level in proportion to the cube root of the objects there, and a descent for each crowded
+//            cell on the way.
+// Weak       the granularity of each level follows from a number of objects alone, whatever a ray pays for them; objects
+//            much larger than the cells they crowd are listed again and again (Jevans 1990, §2 and §7.1).
+
+#include <numeric>
+
+#include "accel/core/define_technique.h"
+#include "accel/parts/grid_nesting.h"
+#include "accel/parts/visit_cells.h"
+
+namespace rayshoot {
+
+namespace {
+
+struct RecursiveGridConfig {
+  NestingRules nesting;
+  MailboxUse mailbox = MailboxUse::automatic;
+};
+
+template <class Real>
+class RecursiveGrid {
+ public:
+  using Scalar = Real;
+  using Config = RecursiveGridConfig;
+  using Scratch = Mailbox;
+
+  static TechniqueInfo info() {
+    std::vector<Parameter> parameters = nesting_parameters({});
+    parameters.push_back(mailbox_parameter());
+    return {.id = "recursive_grid",
+            .title = "Recursive grid (adaptive 3-D grid)",
+            .family = "grid",
+            .survey_section = "5.1",
+            .paper = "Jevans & Wyvill 1989",
+            .parameters = parameters};
+  }
+  static Config configure(const Arguments& arguments) {
+    return {.nesting = nesting_rules(arguments), .mailbox = mailbox_use(arguments)};
+  }
+
+  static RecursiveGrid build(const BuildInput<Real>& in, const Config& config) {
+    RecursiveGrid technique;
+    const std::uint32_t objects = in.geometry.size();
+    if (objects == 0) return technique;
+
+    // Divide the box of all objects, then each cell with too many.
+    std::vector<std::uint32_t> all(objects);
+    std::iota(all.begin(), all.end(), 0u);
+    technique.grids_ = NestedGrids<Real>(objects);
+    technique.root_ =
+        GridNesting<Real>(in.geometry, config.nesting, technique.grids_).outermost(in.geometry.bounds(), all);
+
+    technique.structure_ = technique.grids_.structure();
+    technique.structure_.max_depth = technique.depth(technique.root_);
+    if (wants_mailbox(config.mailbox, technique.structure_.references, objects))
+      technique.mailboxes_ = objects;
+    return technique;
+  }
+
+  Scratch scratch() const { return Mailbox(mailboxes_); }
+
+  template <class Counter, class L>
+  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
+    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
+  }
+
+  /// Hand the objects of the ray's cells to `visit`, cell by cell (visit_cells.h).
+  template <class Counter, class Reach, class Visit>
+  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
+    if (grids_.size() == 0) return;
+    // A nested grid stands in one cell alone and needs no mailbox.
+    Mailbox none;
+    NestedWalk<Real, Counter, Reach, Visit>(grids_, none, ray, count, reach, visit).through(root_);
+  }
+
+  StructureStats structure() const { return structure_; }
+
+ private:
+  /// Levels of grids.
+  std::uint64_t depth(std::uint32_t grid) const {
+    std::uint64_t below = 0;
+    for (std::uint64_t cell = 0; cell < grids_[grid].planes.cells(); ++cell)
+      for (const std::uint32_t item : grids_[grid].cells.objects(cell))
+        if (grids_.is_grid(item)) below = std::max(below, depth(item));
+    return 1 + below;
+  }
+
+  NestedGrids<Real> grids_;
+  std::uint32_t root_ = 0;
+  StructureStats structure_;
+  std::uint32_t mailboxes_ = 0;
+};
+
+}  // namespace
+
+RAYSHOOT_TECHNIQUE(recursive_grid, RecursiveGrid)
+
+}  // namespace rayshoot

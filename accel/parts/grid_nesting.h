@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+
+#include "accel/parts/grid_resolution.h"
+#include "accel/parts/nested_grids.h"
+#include "scenes/core/geometry.h"
+
+namespace rayshoot {
+
+/// When a cell of a grid is divided by a grid of its own, and how finely.
+struct NestingRules {
+  ResolutionRule rule = ResolutionRule::heterogeneous;
+  /// Cells per object of the outermost grid, and of those within cells.
+  double density = 3, nested_density = 1;
+  /// A cell with more objects is divided,
+  std::uint32_t max_objects = 16;
+  /// unless so many grids are around it already, or every object would be in every cell of its grid.
+  int max_depth = 4;
+};
+
+/// The parameters of a technique that nests grids, and their values.
+std::vector<Parameter> nesting_parameters(const NestingRules& defaults);
+NestingRules nesting_rules(const Arguments& arguments);
+
+/// Divides space by grids within the cells of grids (Jevans & Wyvill 1989). A cell that is divided lists its grid and
+/// nothing else.
+template <class Real>
+class GridNesting {
+ public:
+  GridNesting(const Geometry<Real>& geometry, const NestingRules& rules, NestedGrids<Real>& grids);
+
+  /// The grid over a box in which those objects are listed, in increasing order, all of which share a point with it.
+  std::uint32_t outermost(const Box<Real>& box, std::span<const std::uint32_t> objects);
+
+ private:
+  /// A division that may be made.
+  struct Division {
+    GridPlanes<Real> planes;
+    double references = 0;
+
+    double cells() const { return static_cast<double>(planes.cells()); }
+    /// Whether some object is kept out of some cell; copies of one are not.
+    bool separates(std::size_t objects) const { return references < cells() * static_cast<double>(objects); }
+  };
+
+  Division over(const Box<Real>& box, std::span<const std::uint32_t> objects, double cells) const;
+  std::optional<std::uint32_t> within(const Box<Real>& cell, std::span<const std::uint32_t> objects,
+                                      int depth);
+  std::uint32_t divide(const GridPlanes<Real>& planes, std::span<const std::uint32_t> objects, int depth);
+
+  const Geometry<Real>& geometry_;
+  const NestingRules& rules_;
+  NestedGrids<Real>& grids_;
+  /// Cells and references that may still be made.
+  double allowance_;
+};
+
+}  // namespace rayshoot
