@@ -47,7 +47,8 @@ class RecursiveGrid {
             .family = "grid",
             .survey_section = "5.1",
             .paper = "Jevans & Wyvill 1989",
-            .parameters = parameters};
+            .parameters = parameters,
+            .events = kNestedGridEvents};
   }
   static Config configure(const Arguments& arguments) {
     return {.nesting = nesting_rules(arguments), .mailbox = mailbox_use(arguments)};
@@ -65,8 +66,7 @@ class RecursiveGrid {
     technique.root_ =
         GridNesting<Real>(in.geometry, config.nesting, technique.grids_).outermost(in.geometry.bounds(), all);
 
-    technique.structure_ = technique.grids_.structure();
-    technique.structure_.max_depth = technique.depth(technique.root_);
+    technique.structure_ = technique.grids_.structure(technique.root_);
     if (wants_mailbox(config.mailbox, technique.structure_.references, objects))
       technique.mailboxes_ = objects;
     return technique;
@@ -76,30 +76,15 @@ class RecursiveGrid {
 
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
-  }
-
-  /// Hand the objects of the ray's cells to `visit`, cell by cell (visit_cells.h).
-  template <class Counter, class Reach, class Visit>
-  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    if (grids_.size() == 0) return;
     // A nested grid stands in one cell alone and needs no mailbox.
     Mailbox none;
-    NestedWalk<Real, Counter, Reach, Visit>(grids_, none, ray, count, reach, visit).through(root_);
+    const NestedOnRay<Real> on_ray{grids_, root_, none};
+    visit_objects_of_cells(on_ray, ray, mailbox, count, leaf);
   }
 
   StructureStats structure() const { return structure_; }
 
  private:
-  /// Levels of grids.
-  std::uint64_t depth(std::uint32_t grid) const {
-    std::uint64_t below = 0;
-    for (std::uint64_t cell = 0; cell < grids_[grid].planes.cells(); ++cell)
-      for (const std::uint32_t item : grids_[grid].cells.objects(cell))
-        if (grids_.is_grid(item)) below = std::max(below, depth(item));
-    return 1 + below;
-  }
-
   NestedGrids<Real> grids_;
   std::uint32_t root_ = 0;
   StructureStats structure_;

@@ -55,6 +55,11 @@ class CellLists {
     return {references_.data() + first_[cell], references_.data() + first_[cell + 1]};
   }
 
+  /// Give the references other numbers: `names[i]` for i. The numbers increase.
+  void renumber(std::span<const std::uint32_t> names) {
+    for (std::uint32_t& reference : references_) reference = names[reference];
+  }
+
   /// Shorten lists, from the first cell on: `shorten(cell, list)` changes the list in place, or not, and returns how many
   /// of its references remain.
   template <class Shorten>
@@ -73,6 +78,8 @@ class CellLists {
     references_.shrink_to_fit();
   }
 
+  /// The references of all cells, one cell after the other.
+  std::span<const std::uint32_t> all() const { return references_; }
   std::uint64_t references() const { return references_.size(); }
   /// Number of cells that refer to something.
   std::uint64_t occupied() const {

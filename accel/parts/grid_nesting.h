@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "accel/parts/grid_resolution.h"
+#include "accel/parts/grid_division.h"
 #include "accel/parts/nested_grids.h"
 #include "scenes/core/geometry.h"
 
@@ -34,26 +34,14 @@ class GridNesting {
   std::uint32_t outermost(const Box<Real>& box, std::span<const std::uint32_t> objects);
 
  private:
-  /// A division that may be made.
-  struct Division {
-    GridPlanes<Real> planes;
-    double references = 0;
-
-    double cells() const { return static_cast<double>(planes.cells()); }
-    /// Whether some object is kept out of some cell; copies of one are not.
-    bool separates(std::size_t objects) const { return references < cells() * static_cast<double>(objects); }
-  };
-
-  Division over(const Box<Real>& box, std::span<const std::uint32_t> objects, double cells) const;
   std::optional<std::uint32_t> within(const Box<Real>& cell, std::span<const std::uint32_t> objects,
                                       int depth);
-  std::uint32_t divide(const GridPlanes<Real>& planes, std::span<const std::uint32_t> objects, int depth);
+  std::uint32_t divide(const GridDivision<Real>& division, std::span<const std::uint32_t> objects, int depth);
 
   const Geometry<Real>& geometry_;
   const NestingRules& rules_;
   NestedGrids<Real>& grids_;
-  /// Cells and references that may still be made.
-  double allowance_;
+  GridAllowance allowance_;
 };
 
 }  // namespace rayshoot

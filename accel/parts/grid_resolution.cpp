@@ -69,6 +69,18 @@ Resolution resolution_by_rule(ResolutionRule rule, const Vec3d& extent, double c
   return {whole_cells(along_longest), whole_cells(along_longest), whole_cells(along_longest)};
 }
 
+Parameter resolution_rule_parameter() {
+  return choice_parameter("resolution", "heterogeneous", {"heterogeneous", "cube_root", "woo"},
+                          "rule for the number of cells along each axis");
+}
+
+ResolutionRule resolution_rule(const Arguments& arguments) {
+  const std::string& rule = arguments.text("resolution");
+  return rule == "cube_root" ? ResolutionRule::cube_root
+         : rule == "woo"     ? ResolutionRule::woo
+                             : ResolutionRule::heterogeneous;
+}
+
 Resolution ResolutionChoice::for_objects(std::uint64_t objects, const Vec3d& extent) const {
   return given ? *given : resolution_by_rule(rule, extent, density * static_cast<double>(objects));
 }

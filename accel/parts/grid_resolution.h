@@ -22,6 +22,10 @@ enum class ResolutionRule { cube_root, woo, heterogeneous };
 /// The resolution that a rule gives for a box of that extent. Numbers are rounded to the nearest, at least 1.
 Resolution resolution_by_rule(ResolutionRule rule, const Vec3d& extent, double cells);
 
+/// The parameter `resolution` of techniques that build many grids, and its value.
+Parameter resolution_rule_parameter();
+ResolutionRule resolution_rule(const Arguments& arguments);
+
 /// A resolution as parameters give it: a rule with the density of cells per object, or explicit.
 struct ResolutionChoice {
   ResolutionRule rule = ResolutionRule::heterogeneous;

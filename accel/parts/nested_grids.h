@@ -7,6 +7,13 @@
 
 namespace rayshoot {
 
+/// What techniques with nested grids count, by position in `TechniqueInfo::events`.
+enum NestedGridEvent : std::size_t {
+  grids_entered,   ///< nested grids that were walked
+  grids_met_again  ///< nested grids that a further cell listed, not walked again
+};
+inline const std::vector<std::string> kNestedGridEvents = {"grids_entered", "grids_met_again"};
+
 /// Grids that are listed in the cells of other grids as if they were objects. What a cell lists are items: objects by
 /// their numbers, and grids by the numbers that follow those of all objects.
 template <class Real>
@@ -19,7 +26,7 @@ class NestedGrids {
 
   explicit NestedGrids(std::uint32_t objects = 0) : objects_(objects) {}
 
-  /// Keep a grid; returns its number as an item.
+  /// Keep a grid, after all that it lists; returns its number as an item.
   std::uint32_t add(Grid grid) {
     grids_.push_back(std::move(grid));
     return objects_ + static_cast<std::uint32_t>(grids_.size() - 1);
@@ -38,8 +45,9 @@ class NestedGrids {
     return objects;
   }
 
-  /// Nodes are the grids and those of their cells that list no grid, which are the leaves.
-  StructureStats structure() const {
+  /// Nodes are the grids and those of their cells that list no grid, which are the leaves. `outermost` lists all others,
+  /// or lists those that do.
+  StructureStats structure(std::uint32_t outermost) const {
     StructureStats stats{.nodes = grids_.size()};
     for (const Grid& grid : grids_) {
       stats.bytes += sizeof(Grid) + grid.planes.bytes() + grid.cells.bytes();
@@ -52,11 +60,21 @@ class NestedGrids {
       }
     }
     stats.nodes += stats.leaves;
+    stats.max_depth = levels(outermost);
     stats.figures["grids"] = static_cast<double>(grids_.size());
     return stats;
   }
 
  private:
+  /// Levels of grids from this one on. A grid has a greater number than those it lists.
+  std::uint64_t levels(std::uint32_t outermost) const {
+    std::vector<std::uint64_t> levels(grids_.size(), 1);
+    for (std::size_t grid = 0; grid < grids_.size(); ++grid)
+      for (const std::uint32_t item : grids_[grid].cells.all())
+        if (is_grid(item)) levels[grid] = std::max(levels[grid], 1 + levels[place(item)]);
+    return levels[place(outermost)];
+  }
+
   std::uint32_t objects_;
   std::vector<Grid> grids_;
 };
@@ -95,14 +113,16 @@ class NestedWalk {
     if (objects == items.size()) return visit_(items);
     if (objects > 0 && visit_(items.first(objects))) return true;
     for (const std::uint32_t grid : items.subspan(objects))
-      if (!walked_.in_use() || walked_.first_visit(grids_.place(grid)))
-        if (enter(grid)) return true;
+      if (walked_.in_use() && !walked_.first_visit(grids_.place(grid)))
+        count_.event(grids_met_again);
+      else if (enter(grid))
+        return true;
     return false;
   }
 
   /// Go down into a nested grid.
   [[gnu::noinline]] bool enter(std::uint32_t grid) {
-    count_.step();
+    count_.step(), count_.event(grids_entered);
     return through(grid);
   }
 
@@ -113,6 +133,20 @@ class NestedWalk {
   Counter count_;
   const Reach& reach_;
   const Visit& visit_;
+};
+
+/// The cells of a ray in an outermost grid and those nested in it, with the mailbox of a thread for grids (visit_cells.h).
+template <class Real>
+struct NestedOnRay {
+  const NestedGrids<Real>& grids;
+  std::uint32_t outermost;
+  Mailbox& walked;
+
+  template <class Counter, class Reach, class Visit>
+  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
+    if (grids.size() == 0) return;
+    NestedWalk<Real, Counter, Reach, Visit>(grids, walked, ray, count, reach, visit).through(outermost);
+  }
 };
 
 }  // namespace rayshoot
