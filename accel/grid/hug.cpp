@@ -242,7 +242,7 @@ class Hug {
     if (objects == 0) return technique;
     technique.grids_ = NestedGrids<Real>(objects);
     technique.root_ = HugBuilder<Real>(in.geometry, config, technique.grids_).build();
-    technique.structure_ = technique.grids_.structure(technique.root_);
+    technique.structure_ = technique.grids_.structure();
     if (wants_mailbox(config.mailbox, technique.structure_.references, objects))
       technique.mailboxes_ = objects;
     return technique;

@@ -66,7 +66,7 @@ class RecursiveGrid {
     technique.root_ =
         GridNesting<Real>(in.geometry, config.nesting, technique.grids_).outermost(in.geometry.bounds(), all);
 
-    technique.structure_ = technique.grids_.structure(technique.root_);
+    technique.structure_ = technique.grids_.structure();
     if (wants_mailbox(config.mailbox, technique.structure_.references, objects))
       technique.mailboxes_ = objects;
     return technique;

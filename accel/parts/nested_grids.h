@@ -45,9 +45,8 @@ class NestedGrids {
     return objects;
   }
 
-  /// Nodes are the grids and those of their cells that list no grid, which are the leaves. `outermost` lists all others,
-  /// or lists those that do.
-  StructureStats structure(std::uint32_t outermost) const {
+  /// Nodes are the grids and those of their cells that list no grid, which are the leaves.
+  StructureStats structure() const {
     StructureStats stats{.nodes = grids_.size()};
     for (const Grid& grid : grids_) {
       stats.bytes += sizeof(Grid) + grid.planes.bytes() + grid.cells.bytes();
@@ -60,19 +59,19 @@ class NestedGrids {
       }
     }
     stats.nodes += stats.leaves;
-    stats.max_depth = levels(outermost);
+    stats.max_depth = levels();
     stats.figures["grids"] = static_cast<double>(grids_.size());
     return stats;
   }
 
  private:
-  /// Levels of grids from this one on. A grid has a greater number than those it lists.
-  std::uint64_t levels(std::uint32_t outermost) const {
+  /// The most levels of grids one in the other. A grid has a greater number than those it lists.
+  std::uint64_t levels() const {
     std::vector<std::uint64_t> levels(grids_.size(), 1);
     for (std::size_t grid = 0; grid < grids_.size(); ++grid)
       for (const std::uint32_t item : grids_[grid].cells.all())
         if (is_grid(item)) levels[grid] = std::max(levels[grid], 1 + levels[place(item)]);
-    return levels[place(outermost)];
+    return levels.empty() ? 0 : *std::max_element(levels.begin(), levels.end());
   }
 
   std::uint32_t objects_;
@@ -103,12 +102,12 @@ class NestedWalk {
     const auto& grid = grids_[item];
     bool over = false;
     walk_grid(grid.planes, ray_, crossings_, count_, reach_,
-              [&](std::uint64_t cell) { return over = visit_cell(grid.cells.objects(cell)); });
+              [&](std::uint64_t cell) { return over = visit_items(grid.cells.objects(cell)); });
     return over;
   }
 
- private:
-  bool visit_cell(std::span<const std::uint32_t> items) {
+  /// Visit the objects of a cell and walk through the grids it lists, which follow them; true when the visit must end.
+  bool visit_items(std::span<const std::uint32_t> items) {
     const std::size_t objects = grids_.objects_among(items);
     if (objects == items.size()) return visit_(items);
     if (objects > 0 && visit_(items.first(objects))) return true;
@@ -120,6 +119,7 @@ class NestedWalk {
     return false;
   }
 
+ private:
   /// Go down into a nested grid.
   [[gnu::noinline]] bool enter(std::uint32_t grid) {
     count_.step(), count_.event(grids_entered);

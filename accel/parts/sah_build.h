@@ -5,7 +5,7 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
-#include "accel/parts/lanes.h"
+#include "accel/parts/pair_tree.h"
 #include "accel/parts/sah_split.h"
 #include "scenes/core/geometry.h"
 
@@ -15,26 +15,6 @@ namespace rayshoot {
 inline constexpr std::size_t kSequentialObjects = 4096;
 /// Larger ranges are split between bins.
 inline constexpr std::size_t kSweptObjects = 256;
-/// Deeper nodes are halved, which bounds the depth.
-inline constexpr int kBalancedDepth = 48;
-/// Hence no tree is deeper than this.
-inline constexpr int kMaxSahDepth = kBalancedDepth + 32;
-
-/// A child of an interior node: a leaf with objects [first, first + count), or the interior node `first`.
-struct ChildReference {
-  std::uint32_t first;
-  std::uint32_t count;
-
-  bool leaf() const { return count > 0; }
-};
-
-/// An interior node holds the boxes of both its children, so that one fetch decides where to go.
-template <class Real>
-struct alignas(64) PairNode {
-  BoxPair<Real> boxes;
-  ChildReference child[2];
-};
-
 /// Parameters of the build; bvh_sah's manual page explains them.
 struct SahConfig {
   bool sweep = true;
@@ -182,6 +162,18 @@ std::vector<BoxedObject<Real>> boxed_objects(const Geometry<Real>& geometry) {
     objects[object] = {geometry.bounds(object), object};
   });
   return objects;
+}
+
+/// The tree over boxed objects, which are reordered as its leaves name them.
+template <class Real>
+PairTree<Real> sah_tree(std::span<BoxedObject<Real>> objects, const SahConfig& config) {
+  PairTree<Real> tree;
+  if (objects.empty()) return tree;
+  for (const BoxedObject<Real>& object : objects) tree.bounds.include(object.box);
+  SahBuilder<Real> builder(objects, config);
+  tree.root = builder.build();
+  tree.nodes = std::move(builder).take_nodes();
+  return tree;
 }
 
 }  // namespace rayshoot

@@ -59,6 +59,17 @@ TEST(Hug, ListsAGridInTheSmallestThatHoldsIt) {
   EXPECT_EQ(build(kHug, geometry, {})->structure().max_depth, 3u);
 }
 
+/// The small spheres' cluster reaches out of that of the large ones, and both are listed in the scene's grid.
+TEST(Hug, ListsAGridBesideOneThatDoesNotHoldIt) {
+  SceneBuilder builder;
+  row(builder, 0, 0, 10);
+  for (int i = 0; i < 10; ++i) builder.sphere({8, 0.9 + 0.02 * i, 0}, 0.01);
+  const Geometry<double> geometry(std::move(builder).finish());
+  const StructureStats stats = build(kHug, geometry, {})->structure();
+  EXPECT_EQ(stats.figures.at("grids"), 3);
+  EXPECT_EQ(stats.max_depth, 2u);
+}
+
 /// The row is 20 long, and each of its spheres is in one or two cells of its grid; the scene's grid lists the row's in
 /// several cells, but a ray along it walks through it once.
 TEST(Hug, WalksAGridOnceARay) {

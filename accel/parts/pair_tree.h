@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "accel/parts/lanes.h"
+
+namespace rayshoot {
+
+/// Deeper nodes are halved, which bounds the depth.
+inline constexpr int kBalancedDepth = 48;
+/// Hence no tree is deeper than this.
+inline constexpr int kMaxSahDepth = kBalancedDepth + 32;
+
+/// A child of an interior node: a leaf with objects [first, first + count), or the interior node `first`.
+struct ChildReference {
+  std::uint32_t first;
+  std::uint32_t count;
+
+  bool leaf() const { return count > 0; }
+};
+
+/// An interior node holds the boxes of both its children, so that one fetch decides where to go.
+template <class Real>
+struct alignas(64) PairNode {
+  BoxPair<Real> boxes;
+  ChildReference child[2];
+};
+
+/// A binary hierarchy of boxes over objects in the order of its leaves. The root may be a leaf.
+template <class Real>
+struct PairTree {
+  std::vector<PairNode<Real>> nodes;
+  ChildReference root{0, 0};
+  Box<Real> bounds;
+
+  bool empty() const { return nodes.empty() && !root.leaf(); }
+  /// Nodes and leaves.
+  std::uint64_t size() const { return empty() ? 0 : 2 * nodes.size() + 1; }
+  std::size_t bytes() const { return nodes.size() * sizeof(PairNode<Real>); }
+};
+
+}  // namespace rayshoot
