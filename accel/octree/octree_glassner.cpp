@@ -24,11 +24,13 @@
 // Exactness  A point o + t d is nowhere computed. Voxels end on the planes of a lattice whose layers are minlen
 //            thick; the point beyond the exit face is known by its three layers, found by comparing the exit
 //            parameter with the parameters of planes. Where the exit may be on several planes at once, by an edge, a
-//            vertex or rounding, the ray may also touch voxels that it does not enter: these are visited as well.
+//            vertex or rounding, the ray may also touch voxels that it does not enter: these are visited as well, in the
+//            order of all octrees here (leaf_order.h).
 
 #include <numeric>
 
 #include "accel/core/define_technique.h"
+#include "accel/parts/leaf_order.h"
 #include "accel/parts/octree_build.h"
 #include "accel/parts/surface_margin.h"
 #include "accel/parts/visit_cells.h"
@@ -110,19 +112,12 @@ class OctreeGlassner {
     OctreeLimits limits;
     MailboxUse mailbox = MailboxUse::automatic;
   };
-  /// A leaf on the way of a ray: its place in the lattice as the ray sees it, and its objects.
-  struct Voxel {
+  /// A node on the way of a ray: its name, and its entry in the table unless it is an empty voxel.
+  struct Named {
     NodeTable::Name name = 0;
-    Layers corner{};
-    int size = 0;
-    std::span<const std::uint32_t> objects;
-
-    bool contains(const Layers& layers) const {
-      for (int axis = 0; axis < 3; ++axis)
-        if (layers[axis] < corner[axis] || layers[axis] >= corner[axis] + size) return false;
-      return true;
-    }
+    const NodeTable::Node* node = nullptr;
   };
+  using Voxel = CellOnRay<Real, Named>;
 
   static TechniqueInfo info() {
     TechniqueInfo info{.id = "octree_glassner",
@@ -161,18 +156,46 @@ class OctreeGlassner {
   /// Hand the objects of the ray's voxels, empty ones included, to `visit` (visit_cells.h).
   template <class Counter, class Reach, class Visit>
   void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    visit_voxels(ray, count, reach, [&](const Voxel& voxel) { return visit(voxel.objects); });
+    visit_voxels(ray, count, reach, [&](const Voxel& voxel) { return visit(objects(voxel)); });
   }
 
   /// The same with all that is known of a voxel.
   template <class Counter, class Reach, class Visit>
   void visit_voxels(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    Walk<Counter, Reach, Visit> walk(*this, ray, count, reach, visit);
-    const Real margin = margin_ ? margin_->of_ray(ray) : 0;
-    if (margin == 0)
-      walk.in_steps(ray.t_min);
-    else
-      walk.through_all_within(margin, ray.t_min);
+    const LatticeRay<Real> path(lattice_, ray);
+    const ByName<Counter> names{nodes_, count};
+    const LeafOrder<Real, ByName<Counter>> order(names, path, lattice_.layers());
+    if (const Real margin = margin_ ? margin_->of_ray(ray) : 0; margin != 0) [[unlikely]] {
+      // Rays too far away for the margin of the surfaces visit every voxel that they pass at no more than theirs.
+      order.visit_leaves(
+          order.root(),
+          [&](const Voxel& voxel) {
+            const Interval<Real> inside = path.near(voxel.corner, voxel.size, margin);
+            return inside.enter <= inside.exit && inside.exit >= ray.t_min && inside.enter <= reach();
+          },
+          visit);
+      return;
+    }
+
+    // Q is the origin, or the point where the ray enters the box of the environment; then it is stepped into the
+    // neighbour, minlen/2 beyond the exit face, and located from the root (Figure 11).
+    const auto across = [&](Voxel& voxel, int axis, Real first) {
+      const int face = voxel.corner[axis] + voxel.size;
+      if (face == lattice_.layers()) return false;
+      Layers q;
+      for (int other = 0; other < 3; ++other)
+        q[other] = other == axis ? face
+                                 : path.passed_layer(other, first, voxel.corner[other],
+                                                     voxel.corner[other] + voxel.size - 1);
+      voxel = located(names, q, path.mirror());
+      return true;
+    };
+    order.walk(ray.t_min, reach, across, visit);
+  }
+
+  std::span<const std::uint32_t> objects(const Voxel& voxel) const {
+    const NodeTable::Node* leaf = voxel.node.node;
+    return leaf ? std::span(references_).subspan(leaf->first, leaf->count) : std::span<const std::uint32_t>{};
   }
 
   StructureStats structure() const {
@@ -189,8 +212,34 @@ class OctreeGlassner {
   }
 
  private:
-  template <class Counter, class Reach, class Visit>
-  class Walk;
+  /// The nodes as a tree: every look-up is a step.
+  template <class Counter>
+  struct ByName {
+    const NodeTable& nodes;
+    Counter count;
+
+    Named find(NodeTable::Name name) const {
+      count.step();
+      return {name, nodes.find(name)};
+    }
+    Named root() const { return find(NodeTable::kRoot); }
+    bool interior(const Named& named) const { return named.node && named.node->interior(); }
+    Named child(const Named& named, unsigned octant) const {
+      return find(NodeTable::child(named.name, octant));
+    }
+  };
+
+  /// Name the way down from the root to the voxel of layers q, as the ray sees them.
+  template <class Counter>
+  Voxel located(const ByName<Counter>& names, const Layers& q, unsigned mirror) const {
+    Voxel voxel{names.root(), {0, 0, 0}, lattice_.layers()};
+    while (names.interior(voxel.node)) {
+      const int half = voxel.size / 2;
+      const unsigned octant = (q[0] & half ? 1u : 0u) | (q[1] & half ? 2u : 0u) | (q[2] & half ? 4u : 0u);
+      voxel = voxel.child(names.child(voxel.node, octant ^ mirror), octant);
+    }
+    return voxel;
+  }
 
   NodeTable nodes_;
   Lattice<Real> lattice_;
@@ -199,146 +248,6 @@ class OctreeGlassner {
   std::optional<SurfaceMargin<Real>> margin_;
   /// Objects that need a mailbox; none where mailboxes are off.
   std::uint32_t mailboxes_ = 0;
-};
-
-/// One ray's way through the octree.
-template <class Real>
-template <class Counter, class Reach, class Visit>
-class OctreeGlassner<Real>::Walk {
- public:
-  Walk(const OctreeGlassner& octree, const Ray<Real>& ray, Counter count, const Reach& reach,
-       const Visit& visit)
-      : octree_(octree),
-        path_(octree.lattice_, ray),
-        layers_(octree.lattice_.layers()),
-        count_(count),
-        reach_(reach),
-        visit_(visit) {}
-
-  /// Figure 11.
-  void in_steps(Real t_min) {
-    // Q is the origin, or the point where the ray enters the box of the environment.
-    const Interval<Real> box = path_.inside({0, 0, 0}, layers_);
-    Real t = std::max(box.enter, t_min);
-    if (!(t <= box.exit && t <= reach_())) return;
-    Layers q;
-    for (int axis = 0; axis < 3; ++axis) q[axis] = path_.layer(axis, t, 0, layers_);
-    if (t > 0 && planes_at(q, t) > 0 && touched_voxels(t, {}, q)) return;
-
-    while (std::max({q[0], q[1], q[2]}) < layers_) {
-      // Locate the voxel which contains Q and test its objects.
-      const Voxel voxel = locate(q);
-      if (visit_(voxel)) return;
-
-      // Find where the ray leaves the voxel; there it ends if it ends before.
-      t = exit(voxel);
-      if (reach_() < t) return;
-
-      // Step into the neighbour; where that may be by an edge or a vertex, visit the voxels touched there.
-      if (step(voxel, t, q) && touched_voxels(t, voxel, q)) return;
-    }
-  }
-
-  /// Visit every voxel that the ray passes at no more than that margin, from `t_min` on.
-  [[gnu::noinline, gnu::cold]] void through_all_within(Real margin, Real t_min) {
-    descend(
-        NodeTable::kRoot, {0, 0, 0}, layers_,
-        [&](const Layers& corner, int size) {
-          const Interval<Real> inside = path_.near(corner, size, margin);
-          return inside.enter <= inside.exit && inside.exit >= t_min && inside.enter <= reach_();
-        },
-        visit_);
-  }
-
- private:
-  /// Name the way down from the root to the voxel of layers q.
-  Voxel locate(const Layers& q) const {
-    NodeTable::Name name = NodeTable::kRoot;
-    for (int size = layers_;;) {
-      const NodeTable::Node* node = find(name);
-      if (!node || !node->interior())
-        return voxel(name, node, {q[0] & -size, q[1] & -size, q[2] & -size}, size);
-      size /= 2;
-      const unsigned octant = (q[0] & size ? 1u : 0u) | (q[1] & size ? 2u : 0u) | (q[2] & size ? 4u : 0u);
-      name = NodeTable::child(name, octant ^ path_.mirror());
-    }
-  }
-
-  Real exit(const Voxel& voxel) const {
-    return std::min({path_.entry(0, voxel.corner[0] + voxel.size),
-                     path_.entry(1, voxel.corner[1] + voxel.size),
-                     path_.entry(2, voxel.corner[2] + voxel.size)});
-  }
-
-  /// Move Q from the voxel that the ray leaves at t into the one that it enters: minlen/2 beyond each face that
-  /// may contain the exit point, which is into the next layer, and along with the ray on the other axes. Whether the
-  /// ray may pass more than one plane there and touch further voxels.
-  bool step(const Voxel& voxel, Real t, Layers& q) const {
-    const Real until = t * kApart<Real>;
-    bool skips = false;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int face = voxel.corner[axis] + voxel.size;
-      const bool passed = path_.entry(axis, face) <= until;
-      q[axis] =
-          passed ? path_.layer(axis, until, face, layers_) : path_.layer(axis, until, q[axis], face - 1);
-      skips |= q[axis] > face;
-    }
-    return skips || planes_at(q, t) > 1;
-  }
-
-  const NodeTable::Node* find(NodeTable::Name name) const {
-    count_.step();
-    return octree_.nodes_.find(name);
-  }
-
-  Voxel voxel(NodeTable::Name name, const NodeTable::Node* leaf, const Layers& corner, int size) const {
-    if (!leaf) return {name, corner, size, {}};
-    return {name, corner, size, std::span(octree_.references_).subspan(leaf->first, leaf->count)};
-  }
-
-  /// Number of axes on which the ray may pass into the layer of q at t.
-  int planes_at(const Layers& q, Real t) const {
-    int planes = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      planes += q[axis] > 0 && path_.entry(axis, q[axis]) * kApart<Real> >= t;
-    return planes;
-  }
-
-  /// Visit the voxels in which the ray may be at t, but neither the one it comes from nor that of layers q, into
-  /// which it goes on; true when the visit must end.
-  [[gnu::noinline, gnu::cold]] bool touched_voxels(Real t, const Voxel& from, const Layers& q) {
-    return descend(
-        NodeTable::kRoot, {0, 0, 0}, layers_,
-        [&](const Layers& corner, int size) {
-          const Interval<Real> inside = path_.inside(corner, size);
-          return inside.enter <= std::min(inside.exit, t * kApart<Real>) && t <= inside.exit * kApart<Real>;
-        },
-        [&](const Voxel& voxel) { return voxel.name != from.name && !voxel.contains(q) && visit_(voxel); });
-  }
-
-  /// Hand to `visit` the leaves below a node for which, and for all above which, `meets(corner, size)` holds,
-  /// near ones first; true when `visit` returned true.
-  template <class Meets, class VisitLeaf>
-  bool descend(NodeTable::Name name, const Layers& corner, int size, const Meets& meets,
-               const VisitLeaf& visit) const {
-    if (!meets(corner, size)) return false;
-    const NodeTable::Node* node = find(name);
-    if (!node || !node->interior()) return visit(voxel(name, node, corner, size));
-    const int half = size / 2;
-    for (unsigned octant = 0; octant < 8; ++octant) {
-      const Layers child{corner[0] + (octant & 1 ? half : 0), corner[1] + (octant & 2 ? half : 0),
-                         corner[2] + (octant & 4 ? half : 0)};
-      if (descend(NodeTable::child(name, octant ^ path_.mirror()), child, half, meets, visit)) return true;
-    }
-    return false;
-  }
-
-  const OctreeGlassner& octree_;
-  LatticeRay<Real> path_;
-  int layers_;
-  Counter count_;
-  const Reach& reach_;
-  const Visit& visit_;
 };
 
 RAYSHOOT_TECHNIQUE(octree_glassner, OctreeGlassner)

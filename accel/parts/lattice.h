@@ -115,14 +115,14 @@ class LatticeRay {
     });
   }
 
-  /// The last of the layers lowest to highest that the ray may have entered at t; it has entered the lowest.
-  int layer(int axis, Real t, int lowest, int highest) const {
+  /// The last of the layers lowest to highest that the ray has certainly entered before t; the lowest it has.
+  int passed_layer(int axis, Real t, int lowest, int highest) const {
     // Guess from the position at t, which is off by rounding at most: often right, never relied on.
     const Real guess = start_[axis] + t * pace_[axis];
     const int k = guess > static_cast<Real>(lowest)
                       ? static_cast<int>(std::min(guess, static_cast<Real>(highest)))
                       : lowest;
-    if ((k == lowest || entry(axis, k) <= t) && (k == highest || t < entry(axis, k + 1))) return k;
+    if ((k == lowest || exit(axis, k) < t) && (k == highest || !(exit(axis, k + 1) < t))) return k;
     return searched_layer(axis, t, lowest, highest);
   }
 
@@ -144,7 +144,7 @@ class LatticeRay {
   int searched_layer(int axis, Real t, int lowest, int highest) const {
     while (lowest < highest) {
       const int middle = (lowest + highest + 1) / 2;
-      if (entry(axis, middle) <= t)
+      if (exit(axis, middle) < t)
         lowest = middle;
       else
         highest = middle - 1;

@@ -188,7 +188,7 @@ std::vector<std::string> names_on(const OctreeGlassner<double>& technique, const
   technique.visit_voxels(
       ray, count, [&] { return reach; },
       [&](const OctreeGlassner<double>::Voxel& voxel) {
-        names.push_back(std::to_string(voxel.name));
+        names.push_back(std::to_string(voxel.node.name));
         return false;
       });
   return names;
