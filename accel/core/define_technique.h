@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "accel/core/engine.h"
 #include "accel/core/queries.h"
@@ -57,7 +58,7 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       Work work;
       hits[i] = counted_query(query, rays[i], own, work);
-      work.distinct_objects = count_distinct(own.candidates);
+      work.distinct_objects = own.make_distinct(geometry_->size());
       const auto square = [](std::uint64_t n) { return static_cast<double>(n) * static_cast<double>(n); };
       sum += {work, square(work.distinct_objects), square(work.object_tests), square(work.volume_tests)};
     }
@@ -69,10 +70,10 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     auto& own = static_cast<Scratch&>(scratch);
     Work work;
     counted_query(query, ray, own, work);
+    own.make_distinct(geometry_->size());
     std::vector<std::uint32_t> objects(own.candidates.size());
     std::transform(own.candidates.begin(), own.candidates.end(), objects.begin(), name());
     std::sort(objects.begin(), objects.end());
-    objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
     return objects;
   }
 
@@ -88,8 +89,22 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
  private:
   struct Scratch final : EngineScratch {
     explicit Scratch(typename A::Scratch own) : technique(std::move(own)) {}
+
+    /// Leave each of the `candidates` in place once; returns their number.
+    std::uint64_t make_distinct(std::uint32_t objects) {
+      last_counted.resize(objects);
+      ++counted;
+      std::erase_if(candidates, [&](std::uint32_t object) {
+        return std::exchange(last_counted[object], counted) == counted;
+      });
+      return candidates.size();
+    }
+
     typename A::Scratch technique;
     std::vector<std::uint32_t> candidates;
+    /// Queries counted so far, and for each object the number of the last that tested it.
+    std::uint64_t counted = 0;
+    std::vector<std::uint64_t> last_counted;
   };
 
   Naming name() const {
@@ -132,12 +147,6 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     StrictLeaf<Real, Test> leaf(test, name(), ray);
     counted_visit(technique_, ray, scratch.technique, work, leaf, scratch.candidates);
     return {};
-  }
-
-  /// Number of different values in `candidates`, which is sorted on the way.
-  static std::uint64_t count_distinct(std::vector<std::uint32_t>& candidates) {
-    std::sort(candidates.begin(), candidates.end());
-    return static_cast<std::uint64_t>(std::unique(candidates.begin(), candidates.end()) - candidates.begin());
   }
 
   A technique_;

@@ -62,20 +62,20 @@ class OctreeRevelles {
 
     // Leave out rays that miss the root; a root that is a leaf is all there is.
     const LatticeRay<Real> path(cells_.lattice(), ray);
-    const int layers = cells_.lattice().layers();
-    const Interval<Real> whole = path.inside({0, 0, 0}, layers);
+    const Cell root{cells_.root(), {0, 0, 0}, cells_.lattice().layers()};
+    const Interval<Real> whole = path.inside(root.corner, root.size);
     if (!(std::max(whole.enter, ray.t_min) <= std::min(whole.exit, reach()))) return;
     count.step();
-    if (!cells_.root().interior()) {
-      visit(cells_.objects(cells_.root()));
+    if (!root.node->interior()) {
+      visit(cells_.objects(*root.node));
       return;
     }
 
     Voxel stack[kMaxOctreeDepth];
     int top = 0;
-    stack[0].begin(cells_.root(), {0, 0, 0}, layers);
-    stack[0].cell.begin(path, {0, 0, 0}, layers);
-    stack[0].octant = first_child(stack[0].cell, ray.t_min);
+    stack[0].begin(root);
+    stack[0].planes.begin(path, root.corner, root.size);
+    stack[0].octant = first_child(stack[0].planes, ray.t_min);
     while (top >= 0) {
       // Take the child that the ray is in, and find the one after it.
       Voxel& voxel = stack[top];
@@ -85,59 +85,53 @@ class OctreeRevelles {
         continue;
       }
       voxel.octant = next_child(voxel, octant, ray.t_min);
-      const Interval<Real> inside = voxel.cell.inside(octant);
+      const Interval<Real> inside = voxel.planes.inside(octant);
       if (!(inside.enter <= reach())) continue;
       count.step();
 
       // Visit it if it is a leaf, and go down otherwise.
-      const auto& child = cells_.child(*voxel.node, octant ^ path.mirror());
-      if (!child.interior()) {
-        if (visit(cells_.objects(child))) return;
+      const auto* node = cells_.child(voxel.cell.node, octant ^ path.mirror());
+      if (!node->interior()) {
+        if (visit(cells_.objects(*node))) return;
         continue;
       }
-      const int size = voxel.size / 2;
-      const Layers corner = OctreeCells<Real>::child_corner(voxel.corner, octant, size);
       Voxel& below = stack[++top];
-      below.begin(child, corner, size);
-      below.cell.begin_child(path, corner, size, voxel.cell, octant);
-      below.octant = first_child(below.cell, ray.t_min);
+      below.begin(voxel.cell.child(node, octant));
+      below.planes.begin_child(path, below.cell.corner, below.cell.size, voxel.planes, octant);
+      below.octant = first_child(below.planes, ray.t_min);
     }
   }
 
  private:
-  using Layers = typename LatticeRay<Real>::Layers;
+  using Cell = typename OctreeCells<Real>::Cell;
 
   /// An interior voxel on the ray, and the child to be visited next, 8 when there is none.
   struct Voxel {
-    const typename Octree<Real>::Node* node;
-    Layers corner;
-    int size;
-    DividedCell<Real> cell;
+    Cell cell;
+    DividedCell<Real> planes;
     unsigned octant;
     /// Whether the order of the dividing planes is in doubt, so that all children are compared.
     bool in_doubt;
 
-    void begin(const typename Octree<Real>::Node& of, const Layers& at, int layers) {
-      node = &of, corner = at, size = layers, in_doubt = false;
-    }
+    void begin(const Cell& here) { cell = here, in_doubt = false; }
   };
 
   /// first_node of the paper: the child that the ray is in first, beyond each plane that it has certainly passed.
-  static unsigned first_child(const DividedCell<Real>& cell, Real t_min) {
-    const Real first = cell.first(t_min);
-    return (cell.exit[0][0] < first ? 1u : 0u) | (cell.exit[0][1] < first ? 2u : 0u) |
-           (cell.exit[0][2] < first ? 4u : 0u);
+  static unsigned first_child(const DividedCell<Real>& planes, Real t_min) {
+    const Real first = planes.first(t_min);
+    return (planes.exit[0][0] < first ? 1u : 0u) | (planes.exit[0][1] < first ? 2u : 0u) |
+           (planes.exit[0][2] < first ? 4u : 0u);
   }
 
   /// new_node of the paper: the ray leaves a child by the first of the dividing planes before it, and the voxel when
   /// there is none.
   static unsigned next_child(Voxel& voxel, unsigned octant, Real t_min) {
-    if (voxel.in_doubt) return next_of_all(voxel.cell, octant, t_min);
+    if (voxel.in_doubt) return voxel.planes.next_met(octant, t_min);
     constexpr Real never = Box<Real>::infinity();
-    const auto& leave = voxel.cell.exit[0];
+    const auto& leave = voxel.planes.exit[0];
     const Real x = octant & 1 ? never : leave[0], y = octant & 2 ? never : leave[1],
                z = octant & 4 ? never : leave[2];
-    const auto& pass = voxel.cell.enter[1];
+    const auto& pass = voxel.planes.enter[1];
     const Real x_earliest = octant & 1 ? never : pass[0], y_earliest = octant & 2 ? never : pass[1],
                z_earliest = octant & 4 ? never : pass[2];
     unsigned next = 8;
@@ -149,22 +143,9 @@ class OctreeRevelles {
       next = octant | 4;
     else if (octant != 7) {
       voxel.in_doubt = true;
-      return next_of_all(voxel.cell, octant, t_min);
+      return voxel.planes.next_met(octant, t_min);
     }
-    return next < 8 && met(voxel.cell, next, t_min) ? next : 8;
-  }
-
-  /// The next child in increasing order that the ray may touch.
-  [[gnu::noinline, gnu::cold]] static unsigned next_of_all(const DividedCell<Real>& cell, unsigned octant,
-                                                           Real t_min) {
-    while (++octant < 8 && !met(cell, octant, t_min)) {
-    }
-    return octant;
-  }
-
-  static bool met(const DividedCell<Real>& cell, unsigned octant, Real t_min) {
-    const Interval<Real> inside = cell.inside(octant);
-    return inside.enter <= inside.exit && inside.exit >= t_min;
+    return next < 8 && voxel.planes.met(next, t_min) ? next : 8;
   }
 
   OctreeCells<Real> cells_;

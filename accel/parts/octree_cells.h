@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/core/technique.h"
+#include "accel/parts/leaf_order.h"
 #include "accel/parts/mailbox.h"
 #include "accel/parts/octree_build.h"
 #include "accel/parts/surface_margin.h"
@@ -46,6 +47,17 @@ struct DividedCell {
     return {std::max({enter[x][0], enter[y][1], enter[z][2]}),
             std::min({exit[x][0], exit[y][1], exit[z][2]})};
   }
+  /// Whether a ray that begins at `t_min` may touch a child.
+  bool met(unsigned octant, Real t_min) const {
+    const Interval<Real> within = inside(octant);
+    return within.enter <= within.exit && within.exit >= t_min;
+  }
+  /// The next child after one, in increasing order, that the ray may touch; 8 if there is none.
+  [[gnu::noinline, gnu::cold]] unsigned next_met(unsigned octant, Real t_min) const {
+    while (++octant < 8 && !met(octant, t_min)) {
+    }
+    return octant;
+  }
   /// The parameter at which the ray is in the cell for the first time, when it begins at `t_min`.
   Real first(Real t_min) const { return std::max({enter[0][0], enter[0][1], enter[0][2], t_min}); }
 
@@ -58,13 +70,12 @@ struct DividedCell {
   }
 };
 
-/// The octree that all traversals of explicit nodes share: they visit the same leaves in the same order, depth first and
-/// in increasing order of octants as the ray sees them, each whose closed interval on the ray is not empty.
+/// The octree that all traversals of explicit nodes share; they visit the same leaves in the same order (leaf_order.h).
 template <class Real>
 class OctreeCells {
  public:
   using Node = typename Octree<Real>::Node;
-  using Layers = typename LatticeRay<Real>::Layers;
+  using Cell = CellOnRay<Real, const Node*>;
 
   static std::vector<Parameter> parameters() {
     std::vector<Parameter> parameters = octree_parameters();
@@ -84,11 +95,11 @@ class OctreeCells {
   }
 
   const Lattice<Real>& lattice() const { return octree_.lattice; }
-  const Node& root() const { return octree_.nodes[0]; }
+  const std::vector<Node>& nodes() const { return octree_.nodes; }
+  const Node* root() const { return octree_.nodes.data(); }
+  static bool interior(const Node* node) { return node->interior(); }
   /// Child of an interior node, by its octant in the lattice.
-  const Node& child(const Node& parent, unsigned octant) const {
-    return octree_.nodes[parent.first + octant];
-  }
+  const Node* child(const Node* parent, unsigned octant) const { return root() + parent->first + octant; }
   std::span<const std::uint32_t> objects(const Node& leaf) const { return octree_.objects(leaf); }
   Mailbox mailbox() const { return Mailbox(mailboxes_); }
 
@@ -100,31 +111,17 @@ class OctreeCells {
   [[gnu::noinline, gnu::cold]] void visit_within(Real margin, const Ray<Real>& ray, Counter count,
                                                  const Reach& reach, const Visit& visit) const {
     const LatticeRay<Real> path(lattice(), ray);
-    struct Place {
-      const Node* node;
-      Layers corner;
-      int size;
-    };
-    std::vector<Place> stack{{&root(), {0, 0, 0}, lattice().layers()}};
-    while (!stack.empty()) {
-      const auto [node, corner, size] = stack.back();
-      stack.pop_back();
-      const Interval<Real> inside = path.near(corner, size, margin);
-      if (!(inside.enter <= inside.exit && inside.exit >= ray.t_min && inside.enter <= reach())) continue;
-      count.step();
-      if (!node->interior()) {
-        if (visit(objects(*node))) return;
-        continue;
-      }
-      for (unsigned octant = 8; octant-- > 0;)
-        stack.push_back(
-            {&child(*node, octant ^ path.mirror()), child_corner(corner, octant, size / 2), size / 2});
-    }
-  }
-
-  static Layers child_corner(const Layers& corner, unsigned octant, int child_size) {
-    return {corner[0] + (octant & 1 ? child_size : 0), corner[1] + (octant & 2 ? child_size : 0),
-            corner[2] + (octant & 4 ? child_size : 0)};
+    const LeafOrder<Real, OctreeCells> order(*this, path, lattice().layers());
+    order.visit_leaves(
+        order.root(),
+        [&](const Cell& cell) {
+          const Interval<Real> inside = path.near(cell.corner, cell.size, margin);
+          const bool near =
+              inside.enter <= inside.exit && inside.exit >= ray.t_min && inside.enter <= reach();
+          if (near) count.step();
+          return near;
+        },
+        [&](const Cell& cell) { return visit(objects(*cell.node)); });
   }
 
   StructureStats structure() const {

@@ -17,11 +17,7 @@ struct Met {
 };
 
 Met met_by(const Octree<double>& octree, const Ray<double>& ray) {
-  struct Place {
-    const Octree<double>::Node* node;
-    std::array<int, 3> corner;
-    int size;
-  };
+  using Place = CellOnRay<double, const Octree<double>::Node*>;
   const LatticeRay<double> path(octree.lattice, ray);
   Met met;
   std::vector<Place> places{{&octree.nodes[0], {0, 0, 0}, octree.lattice.layers()}};
@@ -33,8 +29,8 @@ Met met_by(const Octree<double>& octree, const Ray<double>& ray) {
     ++met.nodes;
     if (node->interior()) {
       for (unsigned octant = 0; octant < 8; ++octant)
-        places.push_back({&octree.nodes[node->first + (octant ^ path.mirror())],
-                          OctreeCells<double>::child_corner(corner, octant, size / 2), size / 2});
+        places.push_back(
+            Place{node, corner, size}.child(&octree.nodes[node->first + (octant ^ path.mirror())], octant));
       continue;
     }
     ++met.leaves;
