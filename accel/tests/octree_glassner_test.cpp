@@ -3,6 +3,7 @@
 #include "accel/octree/octree_glassner.cpp"
 
 #include "accel/tests/conformance.h"
+#include "accel/tests/leaf_sequence.h"
 #include "accel/tests/two_caveats.h"
 
 namespace rayshoot {
@@ -291,6 +292,10 @@ TEST(OctreeWalk, EndsAtTheReach) {
 TEST(OctreeCaveats, AnObjectIsTestedOnceForARay) {
   caveats::check_repeated_tests(kOctree, {{"max_depth", "2"}, {"max_objects", "1"}});
   caveats::check_mailbox_changes_no_answer(kOctree, {});
+}
+
+TEST(OctreeGlassner, VisitsTheLeavesInTheOrderOfAllOctrees) {
+  octrees::check_leaves_in_order<OctreeGlassner<double>>();
 }
 
 TEST(OctreeCaveats, AHitBeyondTheVoxelDoesNotEndTheWalk) {

@@ -1,9 +1,7 @@
 // What makes octree_revelles that technique: every leaf that the ray meets, no other, and no way twice from the root.
 #include <set>
 
-#include "accel/parts/octree_cells.h"
-#include "accel/tests/conformance.h"
-#include "accel/tests/two_caveats.h"
+#include "accel/tests/leaf_sequence.h"
 
 namespace rayshoot {
 namespace {
@@ -40,36 +38,13 @@ Met met_by(const Octree<double>& octree, const Ray<double>& ray) {
   return met;
 }
 
-/// Rays along the planes, edges and diagonals of the cells of an octree, besides those of the conformance tests.
-std::vector<Ray<double>> rays_through(const Geometry<double>& geometry, const Lattice<double>& lattice) {
-  std::vector<Ray<double>> rays = nasty::rays(geometry, 1, 150);
-  const Vec3d diagonal = lattice.step * lattice.layers();
-  for (int k = 0; k <= lattice.layers(); k += 2)
-    for (unsigned signs = 0; signs < 8; ++signs) {
-      const Vec3d to{signs & 1 ? -1.0 : 1.0, signs & 2 ? -1.0 : 1.0, signs & 4 ? -1.0 : 1.0};
-      const Vec3d corner{lattice.plane(0, k), lattice.plane(1, lattice.layers() / 2),
-                         lattice.plane(2, lattice.layers() - k)};
-      const Vec3d along{to.x * diagonal.x, to.y * diagonal.y, to.z * diagonal.z};
-      rays.push_back({.origin = corner - along * 2, .direction = along});
-      rays.push_back({.origin = corner, .direction = along});
-      for (int axis = 0; axis < 3; ++axis) {
-        Vec3d parallel{};
-        parallel[axis] = to[axis];
-        rays.push_back({.origin = corner - parallel * 100, .direction = parallel});
-      }
-    }
-  return rays;
-}
-
 TEST(OctreeRevelles, VisitsEveryLeafThatTheRayMeetsAndNoOther) {
   const Geometry<double> geometry(soup_scene(200));
-  const Octree<double> octree =
-      build_octree(geometry, {.max_depth = 5, .max_objects = 2, .assignment = Assignment::box});
-  const auto engine =
-      build(kOctree, geometry, {{"max_depth", "5"}, {"max_objects", "2"}, {"assignment", "box"}});
+  const Octree<double> octree = build_octree(geometry, octrees::kLimits);
+  const auto engine = build(kOctree, geometry, octrees::kGiven);
   const auto scratch = engine->scratch();
   std::uint64_t leaves = 0;
-  for (const Ray<double>& ray : rays_through(geometry, octree.lattice)) {
+  for (const Ray<double>& ray : octrees::rays_through(geometry, octree.lattice)) {
     if (!(ray.t_min <= ray.t_max)) continue;
     const Met met = met_by(octree, ray);
     const Work work = counted(*engine, Query::strict, {ray}).work;
@@ -98,15 +73,6 @@ TEST(OctreeRevelles, TakesFewerStepsThanNamingEveryVoxelFromTheRoot) {
              by_parameter = counted(*parametric, Query::strict, rays).work;
   EXPECT_LE(by_parameter.distinct_objects, by_name.distinct_objects);
   EXPECT_LT(by_parameter.steps, by_name.steps);
-}
-
-TEST(OctreeRevelles, TestsAnObjectOnceWithAMailbox) {
-  caveats::check_repeated_tests(kOctree, {{"max_depth", "2"}, {"max_objects", "1"}});
-  caveats::check_mailbox_changes_no_answer(kOctree, {});
-}
-
-TEST(OctreeRevelles, GoesOnBehindAHitBeyondTheVoxel) {
-  caveats::check_hit_beyond_the_voxel(kOctree, {{"max_depth", "2"}, {"max_objects", "1"}}, 3);
 }
 
 }  // namespace
