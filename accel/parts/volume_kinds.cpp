@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "accel/parts/planar.h"
+
 namespace rayshoot {
 
 namespace {
@@ -157,18 +159,6 @@ void append_circle(const Vec3d& centre, double radius, const Vec3d& axis, std::v
     const double angle = 2 * kPi * k / kCircleCorners;
     balls.push_back({centre + (u * std::cos(angle) + v * std::sin(angle)) * to_corner});
   }
-}
-
-/// Whether all vertices lie in the plane in which the polygon is hit.
-template <class Real>
-bool is_planar(const Polygon<Real>& polygon, std::span<const Vec3<Real>> vertices) {
-  const Vec3d first(vertices.front());
-  double farthest = 0, largest = 0;
-  for (const Vec3<Real>& vertex : vertices) {
-    farthest = std::max(farthest, std::abs(dot(polygon.normal, Vec3d(vertex) - first)));
-    largest = std::max(largest, max_abs(Vec3d(vertex) - first));
-  }
-  return farthest <= static_cast<double>(padding(static_cast<Real>(largest), 4)) * length(polygon.normal);
 }
 
 }  // namespace
