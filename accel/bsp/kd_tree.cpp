@@ -98,7 +98,8 @@ class KdTree {
   void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     if (const Real margin = margin_ ? margin_->of_ray(ray) : 0; margin != 0) [[unlikely]]
       return visit_within(margin, ray, count, reach, visit);
-    walk_clipped<false>(tree_, AxisTreeRay<Real>(ray), ray.t_min, count, reach, visit);
+    walk_clipped<false>(tree_, AxisTreeRay<Real>(ray), ray.t_min, count, reach,
+                        [&](const auto& leaf) { return visit(tree_.objects(leaf)); });
   }
 
  private:
@@ -106,7 +107,8 @@ class KdTree {
   template <class Counter, class Reach, class Visit>
   [[gnu::noinline, gnu::cold]] void visit_within(Real margin, const Ray<Real>& ray, Counter count,
                                                  const Reach& reach, const Visit& visit) const {
-    walk_clipped<true>(tree_, AxisTreeRay<Real>(ray, margin), ray.t_min, count, reach, visit);
+    walk_clipped<true>(tree_, AxisTreeRay<Real>(ray, margin), ray.t_min, count, reach,
+                       [&](const auto& leaf) { return visit(tree_.objects(leaf)); });
   }
 
   /// Lay objects out in the order in which the leaves list them first, so that those of a leaf lie close together.

@@ -29,6 +29,7 @@ class AxisTree {
     bool is_leaf() const { return (link_ & 3) == kLeaf; }
     int axis() const { return static_cast<int>(link_ & 3); }
     Real plane() const { return plane_; }
+
     /// Distance of the upper child.
     std::uint32_t upper() const { return link_ >> 2; }
     void link_upper(std::uint32_t distance) { link_ |= distance << 2; }
@@ -52,6 +53,18 @@ class AxisTree {
   bool empty() const { return nodes.empty(); }
   std::span<const std::uint32_t> objects(const Node& leaf) const {
     return {references.data() + leaf.first(), leaf.count()};
+  }
+
+  /// The cell of a node: those of the lower subtree lie before those of the upper one.
+  Box<Real> cell(const Node& of) const {
+    Box<Real> cell = box;
+    for (const Node* node = nodes.data(); node != &of;) {
+      const Node* upper = node + node->upper();
+      const bool above = &of >= upper;
+      (above ? cell.lo : cell.hi)[node->axis()] = node->plane();
+      node = above ? upper : node + 1;
+    }
+    return cell;
   }
 
   StructureStats structure() const {
@@ -111,8 +124,8 @@ class AxisTreeRay {
 /// Jansen's recursive traversal (1986; Arvo & Kirk Figure 12), with a stack of its own: clip the ray's interval at each
 /// dividing plane, and go into the nearer child with the part before it and into the farther one with the part behind.
 /// Visits the leaves in which the clipped interval is not empty, near to far.
-///   visit(objects)  is called with those of each leaf; true ends the walk
-///   Thick           whether the ray's planes have a margin
+///   visit(leaf)  is called with the node of each leaf; true ends the walk
+///   Thick        whether the ray's planes have a margin
 template <bool Thick, class Real, class Counter, class Reach, class Visit>
 void walk_clipped(const AxisTree<Real>& tree, const AxisTreeRay<Real>& ray, Real t_min, Counter count,
                   const Reach& reach, const Visit& visit) {
@@ -152,7 +165,7 @@ void walk_clipped(const AxisTree<Real>& tree, const AxisTreeRay<Real>& ray, Real
         node = nearer;
       }
     }
-    if (visit(tree.objects(*node))) return;
+    if (visit(*node)) return;
     // Come back to the nearest postponed child that no hit has made pointless.
     do {
       if (postponed == 0) return;
