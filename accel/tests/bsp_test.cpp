@@ -124,8 +124,8 @@ TEST(BspKaplan, GoesTheWholeWayFromTheRootForEveryLeaf) {
 TEST(BspJansen, PassesEveryNodeOnce) {
   const Work work = along_x("bsp_jansen");
   EXPECT_EQ(work.cells, 4u);
-  EXPECT_EQ(work.steps, 1u + 3 + 2 * 3 + 4 + 1)
-      << "the way down to the first cut, then a tree of four leaves, doubled";
+  EXPECT_EQ(work.steps, 1u + 2 * 2 + 2 + 4 * 3)
+      << "on x; on y and z in both halves; on x; on y and z to four leaves";
 }
 
 TEST(BspTree, TestsAnObjectOnceARayAndGoesOnBehindAHitBeyondTheVoxel) {
