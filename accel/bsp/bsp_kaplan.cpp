@@ -13,8 +13,8 @@
 //
 // Exactness  The point is nowhere computed: on which side of a plane it lies follows from comparing the parameter at which
 //            the ray leaves the last leaf with that at which it crosses the plane. Where they may be equal, the ray leaves
-//            by an edge or nearly so, and the next leaf is found as bsp_jansen finds it; so both visit the same leaves in
-//            the same order.
+//            by an edge or nearly so, and the rest of its way is found as bsp_jansen finds it, with one more walk from the
+//            root: both visit the same leaves in the same order. Such rays are counted.
 
 #include "accel/core/define_technique.h"
 #include "accel/parts/bsp_build.h"
@@ -38,7 +38,7 @@ class BspKaplan {
             .survey_section = "5.1",
             .paper = "Kaplan 1985",
             .parameters = bsp_parameters(),
-            .events = {"points_located", "searches_at_edges"}};
+            .events = {"points_located", "rays_clipped"}};
   }
   static Config configure(const Arguments& arguments) { return bsp_config(arguments); }
 
@@ -81,14 +81,13 @@ class BspKaplan {
         next = located(path, count, [&](int axis, Real plane, const Interval<Real>& crossing) {
           return exit.side_of(axis, plane, crossing, path.backwards(axis));
         });
-      if (!next.leaf) next = following(*place.leaf, path, ray.t_min, count, reach);
-      if (!next.leaf) return;
+      if (!next.leaf) return visit_following(*place.leaf, path, ray.t_min, count, reach, visit);
       place = next;
     }
   }
 
  private:
-  enum Event : std::size_t { points_located, searches_at_edges };
+  enum Event : std::size_t { points_located, rays_clipped };
   using Node = typename AxisTree<Real>::Node;
 
   enum class Side { nearer, farther, in_doubt };
@@ -151,23 +150,18 @@ class BspKaplan {
     return {};
   }
 
-  /// The leaf that follows one on the ray, none after the last.
-  template <class Counter, class Reach>
-  [[gnu::noinline, gnu::cold]] Place following(const Node& leaf, const AxisTreeRay<Real>& path, Real t_min,
-                                               Counter count, const Reach& reach) const {
-    count.event(searches_at_edges);
-    Place place;
+  /// Visit the leaves that follow one on the ray, by clipping.
+  template <class Counter, class Reach, class Visit>
+  [[gnu::noinline, gnu::cold]] void visit_following(const Node& leaf, const AxisTreeRay<Real>& path,
+                                                    Real t_min, Counter count, const Reach& reach,
+                                                    const Visit& visit) const {
+    count.event(rays_clipped);
     bool passed = false;
     walk_clipped<false>(tree_, path, t_min, count, reach, [&](const Node& visited) {
-      if (passed) place.leaf = &visited;
-      passed |= &visited == &leaf;
-      return place.leaf != nullptr;
+      if (passed) return visit(tree_.objects(visited));
+      passed = &visited == &leaf;
+      return false;
     });
-    if (!place.leaf) return place;
-    const Box<Real> cell = tree_.cell(*place.leaf);
-    for (int axis = 0; axis < 3; ++axis)
-      place.farther[axis] = path.backwards(axis) ? cell.lo[axis] : cell.hi[axis];
-    return place;
   }
 
   AxisTree<Real> tree_;

@@ -55,18 +55,6 @@ class AxisTree {
     return {references.data() + leaf.first(), leaf.count()};
   }
 
-  /// The cell of a node: those of the lower subtree lie before those of the upper one.
-  Box<Real> cell(const Node& of) const {
-    Box<Real> cell = box;
-    for (const Node* node = nodes.data(); node != &of;) {
-      const Node* upper = node + node->upper();
-      const bool above = &of >= upper;
-      (above ? cell.lo : cell.hi)[node->axis()] = node->plane();
-      node = above ? upper : node + 1;
-    }
-    return cell;
-  }
-
   StructureStats structure() const {
     StructureStats stats{.nodes = nodes.size(),
                          .references = references.size(),
