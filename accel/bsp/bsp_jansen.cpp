@@ -10,20 +10,17 @@
 // Weak       planes in the middle cut what they meet and leave empty space with its surface; kd_tree chooses them.
 
 #include "accel/core/define_technique.h"
-#include "accel/parts/bsp_build.h"
-#include "accel/parts/visit_cells.h"
+#include "accel/parts/bsp_technique.h"
 
 namespace rayshoot {
 
 namespace {
 
 template <class Real>
-class BspJansen {
- public:
-  using Scalar = Real;
-  using Config = BspConfig;
-  using Scratch = Mailbox;
+class BspJansen : public BspTechnique<BspJansen, Real> {
+  using BspTechnique<BspJansen, Real>::tree_;
 
+ public:
   static TechniqueInfo info() {
     return {.id = "bsp_jansen",
             .title = "Binary space partitioning, recursive traversal",
@@ -32,33 +29,12 @@ class BspJansen {
             .paper = "Jansen 1986",
             .parameters = bsp_parameters()};
   }
-  static Config configure(const Arguments& arguments) { return bsp_config(arguments); }
-
-  static BspJansen build(const BuildInput<Real>& in, const Config& config) {
-    BspJansen technique;
-    technique.tree_ = build_bsp(in.geometry, config);
-    if (wants_mailbox(config.mailbox, technique.tree_.references.size(), in.geometry.size()))
-      technique.mailboxes_ = in.geometry.size();
-    return technique;
-  }
-
-  Scratch scratch() const { return Mailbox(mailboxes_); }
-  StructureStats structure() const { return tree_.structure(); }
-
-  template <class Counter, class L>
-  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
-  }
 
   template <class Counter, class Reach, class Visit>
   void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     walk_clipped<false>(tree_, AxisTreeRay<Real>(ray), ray.t_min, count, reach,
                         [&](const auto& leaf) { return visit(tree_.objects(leaf)); });
   }
-
- private:
-  AxisTree<Real> tree_;
-  std::uint32_t mailboxes_ = 0;
 };
 
 }  // namespace

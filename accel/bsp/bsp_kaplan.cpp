@@ -17,20 +17,17 @@
 //            root: both visit the same leaves in the same order. Such rays are counted.
 
 #include "accel/core/define_technique.h"
-#include "accel/parts/bsp_build.h"
-#include "accel/parts/visit_cells.h"
+#include "accel/parts/bsp_technique.h"
 
 namespace rayshoot {
 
 namespace {
 
 template <class Real>
-class BspKaplan {
- public:
-  using Scalar = Real;
-  using Config = BspConfig;
-  using Scratch = Mailbox;
+class BspKaplan : public BspTechnique<BspKaplan, Real> {
+  using BspTechnique<BspKaplan, Real>::tree_;
 
+ public:
   static TechniqueInfo info() {
     return {.id = "bsp_kaplan",
             .title = "Binary space partitioning, sequential traversal",
@@ -39,23 +36,6 @@ class BspKaplan {
             .paper = "Kaplan 1985",
             .parameters = bsp_parameters(),
             .events = {"points_located", "rays_clipped"}};
-  }
-  static Config configure(const Arguments& arguments) { return bsp_config(arguments); }
-
-  static BspKaplan build(const BuildInput<Real>& in, const Config& config) {
-    BspKaplan technique;
-    technique.tree_ = build_bsp(in.geometry, config);
-    if (wants_mailbox(config.mailbox, technique.tree_.references.size(), in.geometry.size()))
-      technique.mailboxes_ = in.geometry.size();
-    return technique;
-  }
-
-  Scratch scratch() const { return Mailbox(mailboxes_); }
-  StructureStats structure() const { return tree_.structure(); }
-
-  template <class Counter, class L>
-  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
   }
 
   template <class Counter, class Reach, class Visit>
@@ -163,9 +143,6 @@ class BspKaplan {
       return false;
     });
   }
-
-  AxisTree<Real> tree_;
-  std::uint32_t mailboxes_ = 0;
 };
 
 }  // namespace

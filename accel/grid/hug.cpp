@@ -34,7 +34,7 @@ namespace rayshoot {
 namespace {
 
 struct HugConfig {
-  int levels = 3;
+  int levels = 0;
   double connectivity = 0;
   std::uint32_t min_cluster = 0;
   double density = 0;

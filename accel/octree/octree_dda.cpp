@@ -15,20 +15,19 @@
 //            adds increments.
 
 #include "accel/core/define_technique.h"
-#include "accel/parts/octree_cells.h"
-#include "accel/parts/visit_cells.h"
+#include "accel/parts/octree_technique.h"
 
 namespace rayshoot {
 
 namespace {
 
 template <class Real>
-class OctreeDda {
- public:
-  using Scalar = Real;
-  using Config = OctreeCellsConfig;
-  using Scratch = Mailbox;
+class OctreeDda : public OctreeTechnique<OctreeDda, Real> {
+  using Base = OctreeTechnique<OctreeDda, Real>;
+  using Base::cells_;
+  using typename Base::Node;
 
+ public:
   static TechniqueInfo info() {
     return {.id = "octree_dda",
             .title = "Octree, 3-D DDA among siblings and vertical traversal",
@@ -38,26 +37,9 @@ class OctreeDda {
             .parameters = OctreeCells<Real>::parameters(),
             .events = {"horizontal_steps", "steps_up", "steps_down"}};
   }
-  static Config configure(const Arguments& arguments) { return OctreeCells<Real>::configure(arguments); }
-
-  static OctreeDda build(const BuildInput<Real>& in, const Config& config) {
-    OctreeDda technique;
-    technique.cells_ = OctreeCells<Real>(in.geometry, config);
-    return technique;
-  }
-
-  Scratch scratch() const { return cells_.mailbox(); }
-  StructureStats structure() const { return cells_.structure(); }
-
-  template <class Counter, class L>
-  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
-  }
 
   template <class Counter, class Reach, class Visit>
-  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    if (const Real margin = cells_.margin(ray); margin != 0) [[unlikely]]
-      return cells_.visit_within(margin, ray, count, reach, visit);
+  void traverse(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     const LatticeRay<Real> path(cells_.lattice(), ray);
     const Ancestry tree(cells_);
     const LeafOrder<Real, Ancestry> order(tree, path, cells_.lattice().layers());
@@ -75,14 +57,10 @@ class OctreeDda {
       for (int& layer : voxel.corner) layer &= -voxel.size;
       voxel.corner[axis] += voxel.size;
       count.step(), count.event(horizontal_steps);
-      voxel.node = tree.child(tree.ancestor(level - 1), octant_of(voxel) ^ path.mirror());
+      voxel.node = tree.child(tree.ancestor(level - 1), octant_of(voxel.corner, voxel.size) ^ path.mirror());
 
       // Vertical traversal: enter divided voxels down to a leaf.
-      while (tree.interior(voxel.node)) {
-        const unsigned octant = order.octant_at(voxel, first);
-        voxel = voxel.child(tree.child(voxel.node, octant ^ path.mirror()), octant);
-        count.step(), count.event(steps_down);
-      }
+      voxel = order.first_leaf(voxel, first, [&] { count.step(), count.event(steps_down); });
       return true;
     };
     order.walk(ray.t_min, reach, across,
@@ -91,7 +69,6 @@ class OctreeDda {
 
  private:
   enum Event : std::size_t { horizontal_steps, steps_up, steps_down };
-  using Node = typename OctreeCells<Real>::Node;
 
   struct Placed {
     const Node* node;
@@ -116,14 +93,6 @@ class OctreeDda {
     const OctreeCells<Real>& cells_;
     mutable std::array<const Node*, kMaxOctreeDepth> ancestors_;
   };
-
-  /// Which of its parent's children it is, as the ray sees them.
-  static unsigned octant_of(const Voxel& voxel) {
-    return (voxel.corner[0] & voxel.size ? 1u : 0u) | (voxel.corner[1] & voxel.size ? 2u : 0u) |
-           (voxel.corner[2] & voxel.size ? 4u : 0u);
-  }
-
-  OctreeCells<Real> cells_;
 };
 
 }  // namespace

@@ -13,20 +13,19 @@
 // Exactness  As in octree_revelles: where the order of two crossings is in doubt, all eight children are asked.
 
 #include "accel/core/define_technique.h"
-#include "accel/parts/octree_cells.h"
-#include "accel/parts/visit_cells.h"
+#include "accel/parts/octree_technique.h"
 
 namespace rayshoot {
 
 namespace {
 
 template <class Real>
-class OctreeGargantini {
- public:
-  using Scalar = Real;
-  using Config = OctreeCellsConfig;
-  using Scratch = Mailbox;
+class OctreeGargantini : public OctreeTechnique<OctreeGargantini, Real> {
+  using Base = OctreeTechnique<OctreeGargantini, Real>;
+  using Base::cells_;
+  using typename Base::Cell;
 
+ public:
   static TechniqueInfo info() {
     return {.id = "octree_gargantini",
             .title = "Octree, recursive traversal by ordered plane crossings",
@@ -36,26 +35,9 @@ class OctreeGargantini {
             .parameters = OctreeCells<Real>::parameters(),
             .events = {"crossings_sorted"}};
   }
-  static Config configure(const Arguments& arguments) { return OctreeCells<Real>::configure(arguments); }
-
-  static OctreeGargantini build(const BuildInput<Real>& in, const Config& config) {
-    OctreeGargantini technique;
-    technique.cells_ = OctreeCells<Real>(in.geometry, config);
-    return technique;
-  }
-
-  Scratch scratch() const { return cells_.mailbox(); }
-  StructureStats structure() const { return cells_.structure(); }
-
-  template <class Counter, class L>
-  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
-  }
 
   template <class Counter, class Reach, class Visit>
-  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    if (const Real margin = cells_.margin(ray); margin != 0) [[unlikely]]
-      return cells_.visit_within(margin, ray, count, reach, visit);
+  void traverse(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     const LatticeRay<Real> path(cells_.lattice(), ray);
     const Cell root{cells_.root(), {0, 0, 0}, cells_.lattice().layers()};
     const Interval<Real> whole = path.inside(root.corner, root.size);
@@ -64,8 +46,6 @@ class OctreeGargantini {
   }
 
  private:
-  using Cell = typename OctreeCells<Real>::Cell;
-
   /// Where the ray crosses the plane that divides a voxel on an axis.
   struct Crossing {
     Real enter, exit;
@@ -108,12 +88,14 @@ class OctreeGargantini {
       for (int k = 0; k + 1 < planes; ++k)
         if (!(ahead[k].exit < ahead[k + 1].enter)) [[unlikely]]
           return into_all(cell, inside, crossings);
+      Real enter = inside.enter;
       for (int k = 0;; ++k) {
-        const Interval<Real> part = within(inside, crossings, octant);
+        const Interval<Real> part{enter, k < planes ? std::min(inside.exit, ahead[k].exit) : inside.exit};
         if (!met(part)) return false;
         if (part.enter <= reach() && into(child(cell, octant), part)) return true;
         if (k == planes) return false;
         octant |= ahead[k].upper_half;
+        enter = std::max(inside.enter, ahead[k].enter);
       }
     }
 
@@ -146,8 +128,6 @@ class OctreeGargantini {
       return cell.child(cells.child(cell.node, octant ^ path.mirror()), octant);
     }
   };
-
-  OctreeCells<Real> cells_;
 };
 
 }  // namespace

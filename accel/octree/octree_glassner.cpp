@@ -168,11 +168,7 @@ class OctreeGlassner {
     if (const Real margin = margin_ ? margin_->of_ray(ray) : 0; margin != 0) [[unlikely]] {
       // Rays too far away for the margin of the surfaces visit every voxel that they pass at no more than theirs.
       order.visit_leaves(
-          order.root(),
-          [&](const Voxel& voxel) {
-            const Interval<Real> inside = path.near(voxel.corner, voxel.size, margin);
-            return inside.enter <= inside.exit && inside.exit >= ray.t_min && inside.enter <= reach();
-          },
+          order.root(), [&](const Voxel& voxel) { return order.near(voxel, margin, ray.t_min, reach()); },
           visit);
       return;
     }
@@ -187,7 +183,7 @@ class OctreeGlassner {
         q[other] = other == axis ? face
                                  : path.passed_layer(other, first, voxel.corner[other],
                                                      voxel.corner[other] + voxel.size - 1);
-      voxel = located(names, q, path.mirror());
+      voxel = located(names, order, q);
       return true;
     };
     order.walk(ray.t_min, reach, across, visit);
@@ -230,14 +226,10 @@ class OctreeGlassner {
   };
 
   /// Name the way down from the root to the voxel of layers q, as the ray sees them.
-  template <class Counter>
-  Voxel located(const ByName<Counter>& names, const Layers& q, unsigned mirror) const {
-    Voxel voxel{names.root(), {0, 0, 0}, lattice_.layers()};
-    while (names.interior(voxel.node)) {
-      const int half = voxel.size / 2;
-      const unsigned octant = (q[0] & half ? 1u : 0u) | (q[1] & half ? 2u : 0u) | (q[2] & half ? 4u : 0u);
-      voxel = voxel.child(names.child(voxel.node, octant ^ mirror), octant);
-    }
+  template <class Names>
+  static Voxel located(const Names& names, const LeafOrder<Real, Names>& order, const Layers& q) {
+    Voxel voxel = order.root();
+    while (names.interior(voxel.node)) voxel = order.child(voxel, octant_of(q, voxel.size / 2));
     return voxel;
   }
 

@@ -16,20 +16,19 @@
 //            pass an edge or a vertex: then all children are compared, and those touched are visited too.
 
 #include "accel/core/define_technique.h"
-#include "accel/parts/octree_cells.h"
-#include "accel/parts/visit_cells.h"
+#include "accel/parts/octree_technique.h"
 
 namespace rayshoot {
 
 namespace {
 
 template <class Real>
-class OctreeRevelles {
- public:
-  using Scalar = Real;
-  using Config = OctreeCellsConfig;
-  using Scratch = Mailbox;
+class OctreeRevelles : public OctreeTechnique<OctreeRevelles, Real> {
+  using Base = OctreeTechnique<OctreeRevelles, Real>;
+  using Base::cells_;
+  using typename Base::Cell;
 
+ public:
   static TechniqueInfo info() {
     return {.id = "octree_revelles",
             .title = "Octree, parametric traversal from the root",
@@ -38,28 +37,10 @@ class OctreeRevelles {
             .paper = "Revelles, Ureña & Lastra 2000",
             .parameters = OctreeCells<Real>::parameters()};
   }
-  static Config configure(const Arguments& arguments) { return OctreeCells<Real>::configure(arguments); }
-
-  static OctreeRevelles build(const BuildInput<Real>& in, const Config& config) {
-    OctreeRevelles technique;
-    technique.cells_ = OctreeCells<Real>(in.geometry, config);
-    return technique;
-  }
-
-  Scratch scratch() const { return cells_.mailbox(); }
-  StructureStats structure() const { return cells_.structure(); }
-
-  template <class Counter, class L>
-  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
-  }
 
   /// proc_subtree of the paper, with a stack of its own.
   template <class Counter, class Reach, class Visit>
-  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    if (const Real margin = cells_.margin(ray); margin != 0) [[unlikely]]
-      return cells_.visit_within(margin, ray, count, reach, visit);
-
+  void traverse(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     // Leave out rays that miss the root; a root that is a leaf is all there is.
     const LatticeRay<Real> path(cells_.lattice(), ray);
     const Cell root{cells_.root(), {0, 0, 0}, cells_.lattice().layers()};
@@ -103,8 +84,6 @@ class OctreeRevelles {
   }
 
  private:
-  using Cell = typename OctreeCells<Real>::Cell;
-
   /// An interior voxel on the ray, and the child to be visited next, 8 when there is none.
   struct Voxel {
     Cell cell;
@@ -147,8 +126,6 @@ class OctreeRevelles {
     }
     return next < 8 && voxel.planes.met(next, t_min) ? next : 8;
   }
-
-  OctreeCells<Real> cells_;
 };
 
 }  // namespace

@@ -14,20 +14,19 @@
 //            touched are searched from the root (leaf_order.h).
 
 #include "accel/core/define_technique.h"
-#include "accel/parts/octree_cells.h"
-#include "accel/parts/visit_cells.h"
+#include "accel/parts/octree_technique.h"
 
 namespace rayshoot {
 
 namespace {
 
 template <class Real>
-class OctreeSamet {
- public:
-  using Scalar = Real;
-  using Config = OctreeCellsConfig;
-  using Scratch = Mailbox;
+class OctreeSamet : public OctreeTechnique<OctreeSamet, Real> {
+  using Base = OctreeTechnique<OctreeSamet, Real>;
+  using Base::cells_;
+  using typename Base::Cell, typename Base::Node;
 
+ public:
   static TechniqueInfo info() {
     return {.id = "octree_samet",
             .title = "Octree, neighbour finding",
@@ -37,16 +36,12 @@ class OctreeSamet {
             .parameters = OctreeCells<Real>::parameters(),
             .events = {"links_up", "links_down"}};
   }
-  static Config configure(const Arguments& arguments) { return OctreeCells<Real>::configure(arguments); }
 
-  static OctreeSamet build(const BuildInput<Real>& in, const Config& config) {
-    OctreeSamet technique;
-    technique.cells_ = OctreeCells<Real>(in.geometry, config);
+  static OctreeSamet build(const BuildInput<Real>& in, const OctreeCellsConfig& config) {
+    OctreeSamet technique = Base::build(in, config);
     technique.link_parents();
     return technique;
   }
-
-  Scratch scratch() const { return cells_.mailbox(); }
 
   StructureStats structure() const {
     StructureStats stats = cells_.structure();
@@ -54,33 +49,20 @@ class OctreeSamet {
     return stats;
   }
 
-  template <class Counter, class L>
-  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
-  }
-
   template <class Counter, class Reach, class Visit>
-  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    if (const Real margin = cells_.margin(ray); margin != 0) [[unlikely]]
-      return cells_.visit_within(margin, ray, count, reach, visit);
+  void traverse(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     const LatticeRay<Real> path(cells_.lattice(), ray);
     const LeafOrder<Real, OctreeCells<Real>> order(cells_, path, cells_.lattice().layers());
     const auto across = [&](Cell& leaf, int axis, Real first) {
-      const bool found = find_neighbour(leaf, axis, path.mirror(), count);
+      if (!find_neighbour(leaf, axis, path.mirror(), count)) return false;
       // Go down to the neighbour that the ray enters, where several smaller ones touch the face.
-      while (found && leaf.node->interior()) {
-        const unsigned octant = order.octant_at(leaf, first);
-        leaf = leaf.child(cells_.child(leaf.node, octant ^ path.mirror()), octant);
-        count.step(), count.event(links_down);
-      }
-      return found;
+      leaf = order.first_leaf(leaf, first, [&] { count.step(), count.event(links_down); });
+      return true;
     };
     order.walk(ray.t_min, reach, across, [&](const Cell& leaf) { return visit(cells_.objects(*leaf.node)); });
   }
 
  private:
-  using Node = typename OctreeCells<Real>::Node;
-  using Cell = typename OctreeCells<Real>::Cell;
   enum Event : std::size_t { links_up, links_down };
 
   /// The neighbour of equal or larger size across the farther face on an axis; false when there is none.
@@ -128,7 +110,6 @@ class OctreeSamet {
         parents_[siblings(cells_.child(&node, 0))] = static_cast<std::uint32_t>(&node - cells_.root());
   }
 
-  OctreeCells<Real> cells_;
   /// The parent of each eight siblings.
   std::vector<std::uint32_t> parents_;
 };

@@ -87,9 +87,8 @@ class AxisTreeRay {
     }
   }
 
+  /// Whether the ray goes down along an axis.
   bool backwards(int axis) const { return backwards_ >> axis & 1; }
-  /// Bit k is set where the ray goes down along axis k.
-  unsigned backwards() const { return backwards_; }
   /// The parameters before which it has not passed a plane, and after which it has.
   Real enter(int axis, Real plane) const { return (plane - origin_[axis]) * earliest_[axis]; }
   Real exit(int axis, Real plane) const { return (plane - origin_[axis]) * latest_[axis]; }

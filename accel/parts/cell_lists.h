@@ -1,6 +1,5 @@
 #pragma once
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -11,15 +10,9 @@
 #include <span>
 #include <vector>
 
-namespace rayshoot {
+#include "accel/parts/for_each_below.h"
 
-/// Call visit(i) for all i below `count`, by several threads where that pays.
-template <class Index, class Visit>
-void for_each_below(Index count, const Visit& visit) {
-  constexpr Index worth_sharing = 1024;
-  if (count >= worth_sharing) return tbb::parallel_for(Index{0}, count, visit);
-  for (Index i = 0; i < count; ++i) visit(i);
-}
+namespace rayshoot {
 
 /// For every cell the objects it refers to, in increasing order, in an array of all cells: 4 bytes a cell and
 /// 4 a reference. Neither this nor the next class holds more than 2^32 - 1 references. Both ask for the cells

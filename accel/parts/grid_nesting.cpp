@@ -27,20 +27,18 @@ GridNesting<Real>::GridNesting(const Geometry<Real>& geometry, const NestingRule
 
 template <class Real>
 std::uint32_t GridNesting<Real>::outermost(const Box<Real>& box, std::span<const std::uint32_t> objects) {
-  const auto bounds_of = [&](std::uint32_t i) { return geometry_.bounds(objects[i]); };
   const double cells = rules_.density * static_cast<double>(objects.size());
   const auto count = static_cast<std::uint32_t>(objects.size());
-  return divide(allowance_.division(box, rules_.rule, cells, count, bounds_of), objects, 1);
+  return divide(allowance_.division(box, rules_.rule, cells, count, bounds_of(objects)), objects, 1);
 }
 
 template <class Real>
 std::optional<std::uint32_t> GridNesting<Real>::within(const Box<Real>& cell,
                                                        std::span<const std::uint32_t> objects, int depth) {
   if (objects.size() <= rules_.max_objects || depth > rules_.max_depth) return std::nullopt;
-  const auto bounds_of = [&](std::uint32_t i) { return geometry_.bounds(objects[i]); };
   const double cells = rules_.nested_density * static_cast<double>(objects.size());
   const GridDivision<Real> division(cell, rules_.rule, cells, static_cast<std::uint32_t>(objects.size()),
-                                    bounds_of);
+                                    bounds_of(objects));
   if (!division.separates() || !allowance_.covers(division)) return std::nullopt;
   return divide(division, objects, depth);
 }
@@ -50,7 +48,7 @@ std::uint32_t GridNesting<Real>::divide(const GridDivision<Real>& division,
                                         std::span<const std::uint32_t> objects, int depth) {
   // List the objects in the cells that their bounds touch.
   allowance_.take(division);
-  CellLists cells = division.lists([&](std::uint32_t i) { return geometry_.bounds(objects[i]); });
+  CellLists cells = division.lists(bounds_of(objects));
 
   // Divide the cells with too many in turn.
   cells.shorten_lists([&](std::uint64_t cell, std::span<std::uint32_t> list) -> std::size_t {

@@ -38,6 +38,11 @@ class GridNesting {
                                       int depth);
   std::uint32_t divide(const GridDivision<Real>& division, std::span<const std::uint32_t> objects, int depth);
 
+  /// The bounds of each of those objects, by place.
+  auto bounds_of(std::span<const std::uint32_t> objects) const {
+    return [this, objects](std::uint32_t i) { return geometry_.bounds(objects[i]); };
+  }
+
   const Geometry<Real>& geometry_;
   const NestingRules& rules_;
   NestedGrids<Real>& grids_;

@@ -6,6 +6,12 @@
 
 namespace rayshoot {
 
+/// The octant of the cells of `size`^3 layers, among the eight in one of twice that size, in which layers lie.
+template <class Layers>
+unsigned octant_of(const Layers& layers, int size) {
+  return (layers[0] & size ? 1u : 0u) | (layers[1] & size ? 2u : 0u) | (layers[2] & size ? 4u : 0u);
+}
+
 /// A node of an octree on a ray's way, and its cell in the lattice as the ray sees it. `NodeRef` leads to the node.
 template <class Real, class NodeRef>
 struct CellOnRay {
@@ -33,11 +39,7 @@ struct CellOnRay {
       differing |= static_cast<unsigned>(corner[axis] ^ other.corner[axis]);
     if (differing == 0) return false;
     const auto level = static_cast<int>(std::bit_floor(differing));
-    const auto octant = [&](const CellOnRay& cell) {
-      return (cell.corner[0] & level ? 1 : 0) | (cell.corner[1] & level ? 2 : 0) |
-             (cell.corner[2] & level ? 4 : 0);
-    };
-    return octant(*this) > octant(other);
+    return octant_of(corner, level) > octant_of(other.corner, level);
   }
 };
 
@@ -53,22 +55,26 @@ class LeafOrder {
       : tree_(tree), path_(path), layers_(layers) {}
 
   Cell root() const { return {tree_.root(), {0, 0, 0}, layers_}; }
+  /// A child of a cell, by its octant as the ray sees it.
+  Cell child(const Cell& cell, unsigned octant) const {
+    return cell.child(tree_.child(cell.node, octant ^ path_.mirror()), octant);
+  }
 
   /// The first leaf below a cell that the ray is in at `first`, when it comes into the cell or begins: beyond each
-  /// dividing plane that it has certainly passed.
-  Cell first_leaf(Cell cell, Real first) const {
+  /// dividing plane that it has certainly passed. `entered()` is called for every cell on the way down.
+  template <class Entered>
+  Cell first_leaf(Cell cell, Real first, const Entered& entered) const {
     while (tree_.interior(cell.node)) {
-      const unsigned octant = octant_at(cell, first);
-      cell = cell.child(tree_.child(cell.node, octant ^ path_.mirror()), octant);
+      cell = child(cell, octant_at(cell, first));
+      entered();
     }
     return cell;
   }
-  unsigned octant_at(const Cell& cell, Real first) const {
-    const int half = cell.size / 2;
-    unsigned octant = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      octant |= unsigned{path_.exit(axis, cell.corner[axis] + half) < first} << axis;
-    return octant;
+
+  /// Whether a ray passes a cell at no more than that margin.
+  bool near(const Cell& cell, Real margin, Real t_min, Real reach) const {
+    const Interval<Real> inside = path_.near(cell.corner, cell.size, margin);
+    return inside.enter <= inside.exit && inside.exit >= t_min && inside.enter <= reach;
   }
 
   /// Call visit(leaf) for the leaves below a cell for which, and for all cells above which, meets(cell) holds; true when
@@ -78,8 +84,7 @@ class LeafOrder {
     if (!meets(cell)) return false;
     if (!tree_.interior(cell.node)) return visit(cell);
     for (unsigned octant = 0; octant < 8; ++octant)
-      if (visit_leaves(cell.child(tree_.child(cell.node, octant ^ path_.mirror()), octant), meets, visit))
-        return true;
+      if (visit_leaves(child(cell, octant), meets, visit)) return true;
     return false;
   }
 
@@ -111,7 +116,7 @@ class LeafOrder {
     const Interval<Real> whole = path_.inside({0, 0, 0}, layers_);
     const Real begin = std::max(whole.enter, t_min);
     if (!(begin <= std::min(whole.exit, reach()))) return;
-    Cell leaf = first_leaf(root(), begin);
+    Cell leaf = first_leaf(root(), begin, [] {});
     while (!visit(leaf)) {
       const int axis = exit_axis(leaf);
       if (axis < 3) [[likely]] {
@@ -124,6 +129,14 @@ class LeafOrder {
   }
 
  private:
+  unsigned octant_at(const Cell& cell, Real first) const {
+    const int half = cell.size / 2;
+    unsigned octant = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      octant |= unsigned{path_.exit(axis, cell.corner[axis] + half) < first} << axis;
+    return octant;
+  }
+
   /// Move to the next leaf in order that the ray meets before `reach`; false when there is none.
   [[gnu::noinline, gnu::cold]] bool next_leaf(Cell& leaf, Real t_min, Real reach) const {
     const Cell from = leaf;

@@ -1,12 +1,10 @@
 #include "accel/parts/octree_build.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <numeric>
 
+#include "accel/parts/for_each_below.h"
 #include "accel/parts/surface_margin.h"
 
 namespace rayshoot {
@@ -53,13 +51,6 @@ struct OpenCell {
     return std::accumulate(child_counts.begin(), child_counts.end(), std::uint64_t{0});
   }
 };
-
-template <class Body>
-void for_each_index(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-  });
-}
 
 template <class Real>
 class OctreeBuilder {
@@ -114,9 +105,9 @@ class OctreeBuilder {
 
   void sort_into_children(int child_size) {
     octants_.resize(objects_.size());
-    for_each_index(cells_.size(), [&](std::size_t i) {
+    for_each_below(cells_.size(), [&](std::size_t i) {
       OpenCell& cell = cells_[i];
-      for_each_index(cell.count, [&](std::size_t k) {
+      for_each_below(cell.count, [&](std::size_t k) {
         octants_[cell.first + k] = octants_of(objects_[cell.first + k], cell.corner, child_size);
       });
       for (std::uint32_t k = 0; k < cell.count; ++k)
@@ -186,7 +177,7 @@ class OctreeBuilder {
   /// Copy the objects of the open cells into the lists of their children.
   void hand_down(std::vector<OpenCell>& children, std::uint64_t references) {
     std::vector<std::uint32_t> lists(references);
-    for_each_index(cells_.size(), [&](std::size_t i) {
+    for_each_below(cells_.size(), [&](std::size_t i) {
       std::array<std::uint64_t, 8> next;
       for (int octant = 0; octant < 8; ++octant) next[octant] = children[8 * i + octant].first;
       for (std::uint64_t k = cells_[i].first; k < cells_[i].first + cells_[i].count; ++k)

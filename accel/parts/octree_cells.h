@@ -106,24 +106,6 @@ class OctreeCells {
   /// By how much all cells are to be widened for this ray: see SurfaceMargin.
   Real margin(const Ray<Real>& ray) const { return margin_ ? margin_->of_ray(ray) : 0; }
 
-  /// Visit every leaf that the ray passes at no more than that margin, for rays too far away for the surfaces' margin.
-  template <class Counter, class Reach, class Visit>
-  [[gnu::noinline, gnu::cold]] void visit_within(Real margin, const Ray<Real>& ray, Counter count,
-                                                 const Reach& reach, const Visit& visit) const {
-    const LatticeRay<Real> path(lattice(), ray);
-    const LeafOrder<Real, OctreeCells> order(*this, path, lattice().layers());
-    order.visit_leaves(
-        order.root(),
-        [&](const Cell& cell) {
-          const Interval<Real> inside = path.near(cell.corner, cell.size, margin);
-          const bool near =
-              inside.enter <= inside.exit && inside.exit >= ray.t_min && inside.enter <= reach();
-          if (near) count.step();
-          return near;
-        },
-        [&](const Cell& cell) { return visit(objects(*cell.node)); });
-  }
-
   StructureStats structure() const {
     StructureStats stats{
         .nodes = octree_.nodes.size(),

@@ -21,10 +21,7 @@ TYPED_TEST_SUITE(GridWalkOf, Scalars);
 
 template <class Real>
 Interval<Real> inside(const Crossings<Real>& crossings, const GridPlanes<Real>& grid, std::uint64_t cell) {
-  const auto x = static_cast<std::int32_t>(cell % grid.resolution()[0]);
-  const auto y = static_cast<std::int32_t>(cell / grid.resolution()[0] % grid.resolution()[1]);
-  const auto z = static_cast<std::int32_t>(cell / grid.resolution()[0] / grid.resolution()[1]);
-  return crossings.inside(grid.box({{x, y, z}, {x, y, z}}));
+  return crossings.inside(grid.box(grid.block(cell)));
 }
 
 template <class Real>

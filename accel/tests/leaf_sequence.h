@@ -34,25 +34,32 @@ inline std::vector<Ray<double>> rays_through(const Geometry<double>& geometry,
   return rays;
 }
 
-/// The objects of each leaf whose closed interval on the ray is not empty, depth first and in increasing order of octants
-/// as the ray sees them, found by asking every child of every node.
-inline std::vector<Objects> leaves_on(const Octree<double>& octree, const Ray<double>& ray) {
+/// Calls visit(node) for the nodes whose closed intervals on the ray are not empty, depth first and in increasing order of
+/// octants as the ray sees them, found by asking every child of every such node.
+template <class Visit>
+void for_each_met(const Octree<double>& octree, const Ray<double>& ray, const Visit& visit) {
   using Cell = CellOnRay<double, const Octree<double>::Node*>;
   const LatticeRay<double> path(octree.lattice, ray);
-  std::vector<Objects> leaves;
   std::vector<Cell> cells{{octree.nodes.data(), {0, 0, 0}, octree.lattice.layers()}};
   while (!cells.empty()) {
     const Cell cell = cells.back();
     cells.pop_back();
     const Interval<double> inside = path.inside(cell.corner, cell.size);
     if (!(inside.enter <= inside.exit && inside.exit >= ray.t_min && inside.enter <= ray.t_max)) continue;
+    visit(*cell.node);
     if (cell.node->interior())
       for (unsigned octant = 8; octant-- > 0;)
         cells.push_back(
             cell.child(octree.nodes.data() + cell.node->first + (octant ^ path.mirror()), octant));
-    else
-      leaves.emplace_back(octree.objects(*cell.node).begin(), octree.objects(*cell.node).end());
   }
+}
+
+/// The objects of each leaf that the ray meets, in that order.
+inline std::vector<Objects> leaves_on(const Octree<double>& octree, const Ray<double>& ray) {
+  std::vector<Objects> leaves;
+  for_each_met(octree, ray, [&](const Octree<double>::Node& node) {
+    if (!node.interior()) leaves.emplace_back(octree.objects(node).begin(), octree.objects(node).end());
+  });
   return leaves;
 }
 

@@ -15,26 +15,14 @@ struct Met {
 };
 
 Met met_by(const Octree<double>& octree, const Ray<double>& ray) {
-  using Place = CellOnRay<double, const Octree<double>::Node*>;
-  const LatticeRay<double> path(octree.lattice, ray);
   Met met;
-  std::vector<Place> places{{&octree.nodes[0], {0, 0, 0}, octree.lattice.layers()}};
-  while (!places.empty()) {
-    const auto [node, corner, size] = places.back();
-    places.pop_back();
-    const Interval<double> inside = path.inside(corner, size);
-    if (!(inside.enter <= inside.exit && inside.exit >= ray.t_min && inside.enter <= ray.t_max)) continue;
+  octrees::for_each_met(octree, ray, [&](const Octree<double>::Node& node) {
     ++met.nodes;
-    if (node->interior()) {
-      for (unsigned octant = 0; octant < 8; ++octant)
-        places.push_back(
-            Place{node, corner, size}.child(&octree.nodes[node->first + (octant ^ path.mirror())], octant));
-      continue;
-    }
+    if (node.interior()) return;
     ++met.leaves;
-    met.empty_leaves += node->count == 0;
-    for (const std::uint32_t object : octree.objects(*node)) met.objects.insert(object);
-  }
+    met.empty_leaves += node.count == 0;
+    for (const std::uint32_t object : octree.objects(node)) met.objects.insert(object);
+  });
   return met;
 }
 
