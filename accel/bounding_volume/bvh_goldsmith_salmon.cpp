@@ -149,8 +149,7 @@ std::vector<std::uint32_t> insertion_order(const Geometry<Real>& geometry, const
     std::mt19937_64 random(config.seed + static_cast<std::uint64_t>(attempt));
     std::shuffle(order.begin(), order.end(), random);
   } else if (config.order == InsertionOrder::sorted) {
-    const Vec3<Real> size = geometry.bounds().extent();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = largest_axis(geometry.bounds().extent());
     const auto twice_centre = [&](std::uint32_t object) {
       const Box<Real> box = geometry.bounds(object);
       return box.lo[axis] + box.hi[axis];

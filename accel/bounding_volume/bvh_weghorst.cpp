@@ -41,24 +41,18 @@ class BvhWeghorst {
   };
 
   static TechniqueInfo info() {
-    std::vector<std::string> words{"best"}, events;
-    for (const std::string kind : kVolumeKindNames) words.push_back(kind), events.push_back(kind + "_tests");
     std::vector<Parameter> parameters = hierarchy_parameters();
-    parameters.push_back(choice_parameter("volumes", "best", words, "kind of the volumes"));
+    parameters.push_back(volume_kind_parameter());
     return {.id = "bvh_weghorst",
             .title = "Hierarchy of volumes chosen by projected area and cost",
             .family = "bounding_volume",
             .survey_section = "4",
             .paper = "Weghorst, Hooper & Greenberg 1984",
             .parameters = std::move(parameters),
-            .events = std::move(events)};
+            .events = volume_kind_events()};
   }
   static Config configure(const Arguments& arguments) {
-    Config config{.hierarchy = hierarchy_config(arguments), .kind = {}};
-    const auto named = std::find(kVolumeKindNames.begin(), kVolumeKindNames.end(), arguments.text("volumes"));
-    if (named != kVolumeKindNames.end())
-      config.kind = static_cast<VolumeKind>(named - kVolumeKindNames.begin());
-    return config;
+    return {.hierarchy = hierarchy_config(arguments), .kind = volume_kind(arguments)};
   }
 
   static BvhWeghorst build(const BuildInput<Real>& in, const Config& config) {
@@ -66,8 +60,9 @@ class BvhWeghorst {
     BvhWeghorst bvh;
     bvh.tree_ = VolumeTree<Real>(in.geometry, object_hierarchy(in.geometry, config.hierarchy),
                                  [&](const std::array<Volume<Real>, 4>& volumes) {
-                                   return config.kind ? volumes[static_cast<std::size_t>(*config.kind)]
-                                                      : cheapest_volume<Real>(volumes);
+                                   return config.kind
+                                              ? volumes[static_cast<std::size_t>(*config.kind)]
+                                              : cheapest_volume<Real>(volumes, VolumeFit::projected_area);
                                  });
     return bvh;
   }

@@ -17,7 +17,7 @@ concept OrdersObjects = requires(const A a) {
 /// A technique for which equation (3) predicts the cost.
 template <class A>
 concept PredictsCost = requires(const A a) {
-  { a.predicted() } -> std::same_as<Prediction<typename A::Scalar>>;
+  { a.predicted() } -> std::convertible_to<std::optional<Prediction<typename A::Scalar>>>;
 };
 
 /// Derives the batch interface of an engine from a technique's `visit`.

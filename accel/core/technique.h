@@ -95,7 +95,8 @@ struct ArchetypeLeaf {
 /// A technique may also define
 ///   std::span<const std::uint32_t> order() const   to give the leaf positions in that permutation of the
 ///       objects instead of objects; the objects are then laid out in memory in that order;
-///   Prediction<Real> predicted() const             to state what equation (3) expects.
+///   Prediction<Real> predicted() const             to state what equation (3) expects; std::optional where it can do
+///       so for some configurations only.
 template <class A>
 concept Technique = requires(const A a, typename A::Scratch scratch, BuildInput<typename A::Scalar> in,
                              Ray<typename A::Scalar> ray, NoCount none, Count count,

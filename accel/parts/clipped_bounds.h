@@ -11,18 +11,24 @@ Box<Real> common(const Box<Real>& a, const Box<Real>& b) {
   return {max(a.lo, b.lo), min(a.hi, b.hi)};
 }
 
-/// The part of a convex polygon on one side of a plane: where `sign` times a coordinate is at most `limit` (Sutherland &
-/// Hodgman 1974).
-inline std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, int axis, double sign, double limit) {
+/// The part of a convex polygon for which `beyond(point)`, a distance from a plane, is at most 0 (Sutherland & Hodgman
+/// 1974).
+template <class Beyond>
+std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, const Beyond& beyond) {
   std::vector<Vec3d> inside;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3d &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
-    const double beyond_from = sign * from[axis] - limit, beyond_to = sign * to[axis] - limit;
+    const double beyond_from = beyond(from), beyond_to = beyond(to);
     if (beyond_from <= 0) inside.push_back(from);
     if ((beyond_from < 0 && beyond_to > 0) || (beyond_from > 0 && beyond_to < 0))
       inside.push_back(from + (to - from) * (beyond_from / (beyond_from - beyond_to)));
   }
   return inside;
+}
+
+/// The part on one side of a plane across an axis: where `sign` times a coordinate is at most `limit`.
+inline std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, int axis, double sign, double limit) {
+  return clipped(polygon, [=](const Vec3d& point) { return sign * point[axis] - limit; });
 }
 
 /// The corners of an object that is the hull of its corners; none for other kinds.

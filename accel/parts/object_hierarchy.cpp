@@ -1,6 +1,6 @@
 #include "accel/parts/object_hierarchy.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -90,6 +90,14 @@ class Histogram {
 /// Cut items in two, in the order in which they stand.
 std::vector<std::span<Item>> halves(std::span<Item> items) {
   return {items.subspan(0, items.size() / 2), items.subspan(items.size() / 2)};
+}
+
+/// Cut items in two at the median of their centres along the axis of that depth.
+std::vector<std::span<Item>> median_halves(std::span<Item> items, int depth) {
+  std::stable_sort(items.begin(), items.end(), [axis = depth % 3](const Item& a, const Item& b) {
+    return a.centre[axis] < b.centre[axis];
+  });
+  return halves(items);
 }
 
 /// Divide items among the densest peaks of their histogram, each to the nearest; two clusters at least, none empty.
@@ -187,11 +195,15 @@ class HierarchyBuilder {
       for (const Item& object : objects) hierarchy_.order.push_back(object.number);
     hierarchy_.nodes[node].own_last = here();
     if (!holds_objects)
-      for (const std::span<Item> cluster : clusters(objects, config_.resolution, depth))
-        add_node(cluster, {}, false, depth + 1);
+      for (const std::span<Item> part : divided(objects, depth)) add_node(part, {}, false, depth + 1);
     add_groups(groups, depth);
     hierarchy_.nodes[node].last = here();
     hierarchy_.nodes[node].end = static_cast<std::uint32_t>(hierarchy_.nodes.size());
+  }
+
+  std::vector<std::span<Item>> divided(std::span<Item> items, int depth) const {
+    return config_.source == HierarchySource::median ? median_halves(items, depth)
+                                                     : clusters(items, config_.resolution, depth);
   }
 
   void add_groups(std::span<Item> groups, int depth) {
@@ -199,7 +211,7 @@ class HierarchyBuilder {
       for (const Item& group : groups) add_group(group.number);
       return;
     }
-    for (const std::span<Item> cluster : clusters(groups, config_.resolution, depth))
+    for (const std::span<Item> cluster : divided(groups, depth))
       if (cluster.size() == 1)
         add_group(cluster.front().number);
       else
@@ -214,19 +226,27 @@ class HierarchyBuilder {
 
 }  // namespace
 
-std::vector<Parameter> hierarchy_parameters() {
+std::vector<Parameter> hierarchy_parameters(const HierarchyConfig& by_default) {
   return {
-      choice_parameter("hierarchy", "modeller", {"modeller", "automatic"},
-                       "the modeller's grouping, where the scene states one, or automatic clustering"),
-      integer_parameter("resolution", 8, 3, 64, "cells of the clustering histogram along the longest axis"),
-      integer_parameter("max_objects", 4, 1, 64, "objects that a node may hold itself")};
+      choice_parameter(
+          "hierarchy", kHierarchySourceNames[static_cast<std::size_t>(by_default.source)],
+          {kHierarchySourceNames.begin(), kHierarchySourceNames.end()},
+          "the modeller's grouping, where the scene states one, automatic clustering, or halves"),
+      integer_parameter("resolution", kHistogramCells, 3, 64,
+                        "cells of the clustering histogram along the longest axis"),
+      integer_parameter("max_objects", by_default.max_objects, 1, 64, "objects that a node may hold itself")};
 }
 
 HierarchyConfig hierarchy_config(const Arguments& arguments) {
-  return {.source = arguments.text("hierarchy") == "modeller" ? HierarchySource::modeller
-                                                              : HierarchySource::automatic,
-          .resolution = static_cast<int>(arguments.integer("resolution")),
-          .max_objects = static_cast<std::uint32_t>(arguments.integer("max_objects"))};
+  const std::string& source = arguments.text("hierarchy");
+  const auto named = std::find(kHierarchySourceNames.begin(), kHierarchySourceNames.end(), source);
+  const HierarchyConfig config{.source = static_cast<HierarchySource>(named - kHierarchySourceNames.begin()),
+                               .resolution = static_cast<int>(arguments.integer("resolution")),
+                               .max_objects = static_cast<std::uint32_t>(arguments.integer("max_objects"))};
+  if (config.source == HierarchySource::median && config.resolution != kHistogramCells)
+    throw InputError("hierarchy=median makes no histogram; with it leave resolution at " +
+                     std::to_string(kHistogramCells));
+  return config;
 }
 
 template <class Real>

@@ -102,8 +102,7 @@ class SahBuilder {
   /// Split in the middle of the longest axis, where no heuristic can tell.
   std::size_t halve(std::span<BoxedObject<Real>> range, const Extent<Real>& extent) const {
     if (range.size() <= config_.max_objects) return 0;
-    const Vec3<Real> size = extent.twice_centres.extent();
-    sort_by_centre(range, size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2);
+    sort_by_centre(range, largest_axis(extent.twice_centres.extent()));
     return range.size() / 2;
   }
 

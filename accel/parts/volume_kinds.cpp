@@ -163,6 +163,24 @@ void append_circle(const Vec3d& centre, double radius, const Vec3d& axis, std::v
 
 }  // namespace
 
+Parameter volume_kind_parameter() {
+  std::vector<std::string> words{"best"};
+  words.insert(words.end(), kVolumeKindNames.begin(), kVolumeKindNames.end());
+  return choice_parameter("volumes", "best", words, "kind of the volumes");
+}
+
+std::optional<VolumeKind> volume_kind(const Arguments& arguments) {
+  const auto named = std::find(kVolumeKindNames.begin(), kVolumeKindNames.end(), arguments.text("volumes"));
+  if (named == kVolumeKindNames.end()) return std::nullopt;
+  return static_cast<VolumeKind>(named - kVolumeKindNames.begin());
+}
+
+std::vector<std::string> volume_kind_events() {
+  std::vector<std::string> events;
+  for (const std::string kind : kVolumeKindNames) events.push_back(kind + "_tests");
+  return events;
+}
+
 template <class Real>
 double Volume<Real>::surface_area() const {
   switch (kind) {
@@ -179,6 +197,69 @@ double Volume<Real>::surface_area() const {
 }
 
 template <class Real>
+Vec3d Volume<Real>::half_extent() const {
+  if (kind == VolumeKind::axis_box) return (place[1] - place[0]) * 0.5;
+  if (kind == VolumeKind::sphere) return {half().x, half().x, half().x};
+  return half();
+}
+
+template <class Real>
+std::array<Vec3d, 3> Volume<Real>::frame() const {
+  return kind == VolumeKind::axis_box || kind == VolumeKind::sphere ? coordinate_axes() : axes;
+}
+
+template <class Real>
+Vec3d Volume<Real>::point(const Vec3d& at) const {
+  const Vec3d middle = kind == VolumeKind::axis_box ? (place[0] + place[1]) * 0.5 : centre();
+  const Vec3d extent = half_extent();
+  return from_frame(frame(), middle, {at.x * extent.x, at.y * extent.y, at.z * extent.z});
+}
+
+template <class Real>
+bool Volume<Real>::holds(const Vec3d& point) const {
+  const Interval<Real> interval =
+      inside(VolumeRay<Real>(Ray<Real>{.origin = Vec3<Real>(point), .direction = {1, 0, 0}}));
+  return interval.enter <= 0 && interval.exit >= 0;
+}
+
+template <class Real>
+Box<Real> Volume<Real>::bounds() const {
+  if (kind == VolumeKind::axis_box) return {Vec3<Real>(place[0]), Vec3<Real>(place[1])};
+  const std::array<Vec3d, 3> along = frame();
+  const Vec3d extent = half_extent();
+  Vec3d reach{};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int k = 0; k < 3; ++k) reach[axis] += std::abs(along[k][axis]) * extent[k];
+  Box<Real> box;
+  box.include(Vec3<Real>(centre() - reach)), box.include(Vec3<Real>(centre() + reach));
+  return padded(box);
+}
+
+template <class Real>
+double Volume<Real>::enclosed_volume() const {
+  const Vec3d extent = half_extent();
+  const double thinnest = kSurfaceError<Real> * (extent.x + extent.y + extent.z);
+  const Vec3d h = extent + Vec3d{thinnest, thinnest, thinnest};
+  switch (kind) {
+    case VolumeKind::axis_box:
+    case VolumeKind::oriented_box:
+      return 8 * h.x * h.y * h.z;
+    case VolumeKind::sphere:
+      return 4 * kPi / 3 * h.x * h.x * h.x;
+    case VolumeKind::cylinder:
+      return 2 * kPi * h.x * h.y * h.y;
+  }
+  return 0;
+}
+
+void append_frustum(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius,
+                    std::vector<SurfaceBall>& balls) {
+  const Vec3d axis = normalized(apex - base);
+  append_circle(base, base_radius, axis, balls);
+  append_circle(apex, apex_radius, axis, balls);
+}
+
+template <class Real>
 void append_surface(const Geometry<Real>& geometry, std::uint32_t object, std::vector<SurfaceBall>& balls) {
   switch (geometry.kind(object)) {
     case ObjectKind::triangle: {
@@ -192,9 +273,7 @@ void append_surface(const Geometry<Real>& geometry, std::uint32_t object, std::v
     }
     case ObjectKind::cone: {
       const Cone<Real>& cone = geometry.cone(object);
-      const Vec3d axis = normalized(Vec3d(cone.apex) - Vec3d(cone.base));
-      append_circle(Vec3d(cone.base), cone.base_radius, axis, balls);
-      return append_circle(Vec3d(cone.apex), cone.apex_radius, axis, balls);
+      return append_frustum(Vec3d(cone.base), cone.base_radius, Vec3d(cone.apex), cone.apex_radius, balls);
     }
     case ObjectKind::polygon:
       break;
@@ -233,10 +312,14 @@ std::array<Volume<Real>, 4> bounding_volumes(const Geometry<Real>& geometry,
 }
 
 template <class Real>
-const Volume<Real>& cheapest_volume(std::span<const Volume<Real>> volumes) {
-  return *std::min_element(volumes.begin(), volumes.end(), [](const auto& a, const auto& b) {
-    return a.projected_area() * a.relative_cost() < b.projected_area() * b.relative_cost();
-  });
+const Volume<Real>& cheapest_volume(std::span<const Volume<Real>> volumes, VolumeFit fit) {
+  const auto product = [fit](const Volume<Real>& volume) {
+    const double measure =
+        fit == VolumeFit::enclosed_volume ? volume.enclosed_volume() : volume.projected_area();
+    return measure * volume.relative_cost();
+  };
+  return *std::min_element(volumes.begin(), volumes.end(),
+                           [&](const auto& a, const auto& b) { return product(a) < product(b); });
 }
 
 #define RAYSHOOT_INSTANTIATE(REAL)                                                                       \
@@ -245,7 +328,7 @@ const Volume<Real>& cheapest_volume(std::span<const Volume<Real>> volumes) {
   template std::array<Volume<REAL>, 4> bounding_volumes(std::span<const SurfaceBall>, const Box<REAL>&); \
   template std::array<Volume<REAL>, 4> bounding_volumes(const Geometry<REAL>&,                           \
                                                         std::span<const std::uint32_t>);                 \
-  template const Volume<REAL>& cheapest_volume(std::span<const Volume<REAL>>);
+  template const Volume<REAL>& cheapest_volume(std::span<const Volume<REAL>>, VolumeFit);
 
 RAYSHOOT_INSTANTIATE(float)
 RAYSHOOT_INSTANTIATE(double)

@@ -73,7 +73,7 @@ TEST(VolumeKinds, ASphereIsBoundedByItself) {
   builder.sphere({1, 2, 3}, 0.5);
   const auto volumes = volumes_of(std::move(builder));
   EXPECT_NEAR(of_kind(volumes, VolumeKind::sphere).surface_area(), std::numbers::pi, 1e-9);
-  EXPECT_EQ(cheapest_volume<double>(volumes).kind, VolumeKind::sphere);
+  EXPECT_EQ(cheapest_volume<double>(volumes, VolumeFit::projected_area).kind, VolumeKind::sphere);
 }
 
 TEST(VolumeKinds, ALongSlantedCylinderIsBoundedByACylinder) {
@@ -82,7 +82,7 @@ TEST(VolumeKinds, ALongSlantedCylinderIsBoundedByACylinder) {
   const auto volumes = volumes_of(std::move(builder));
   const double own = 2 * std::numbers::pi * 0.01 * (std::sqrt(14) + 0.01);
   EXPECT_NEAR(of_kind(volumes, VolumeKind::cylinder).surface_area(), own, 0.03 * own);
-  const VolumeKind kind = cheapest_volume<double>(volumes).kind;
+  const VolumeKind kind = cheapest_volume<double>(volumes, VolumeFit::projected_area).kind;
   EXPECT_TRUE(kind == VolumeKind::cylinder || kind == VolumeKind::oriented_box);
 }
 

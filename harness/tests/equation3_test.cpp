@@ -34,7 +34,7 @@ TEST_P(Equation3, PredictsTestsWithinTheIntervalOfAMillionChords) {
   const Scene scene = load_scene(GetParam()).scene;
   const Geometry<double> geometry(scene);
   const RaySet chords = make_rays("chords(rays=3000000)", scene, NoTracer(), 1);
-  for (const char* technique : {"bvh_sah", "bvh_goldsmith_salmon"})
+  for (const char* technique : {"bvh_sah", "bvh_goldsmith_salmon", "bvh_kay_kajiya"})
     for (const Equation3Check& check : checks(technique, geometry, chords)) {
       EXPECT_GE(check.rays, 1'000'000u);
       EXPECT_TRUE(check.holds()) << technique << ' ' << check.quantity << ": predicted " << check.predicted
@@ -50,6 +50,35 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Equation3,
                            const std::string spec = scene.param;
                            return spec.substr(0, spec.find(':'));
                          });
+
+/// Equation (1): all rays test every volume, n = n of them; m follows from equation (2).
+TEST(Equation1, PredictsTheTotalOfAFlatListWithinTheIntervalOfManyChords) {
+  for (const char* spec : {"balls:1", "gears:1", "tree:4", "teapot:2"}) {
+    const Scene scene = load_scene(spec).scene;
+    const Geometry<double> geometry(scene);
+    const RaySet chords = make_rays("chords(rays=200000)", scene, NoTracer(), 1);
+    const TechniqueEntry& entry = technique_entry("bounding_volumes");
+    const auto figures = entry.build<double>({geometry, Arguments(entry.info.parameters, {}, entry.info.id)})
+                             ->structure()
+                             .figures;
+    const auto both = checks("bounding_volumes", geometry, chords);
+    ASSERT_EQ(both.size(), 2u);
+    const Equation3Check &objects = both[0], &volumes = both[1];
+    ASSERT_EQ(objects.quantity, "object_tests");
+    EXPECT_GE(objects.rays, 50'000u);
+    EXPECT_TRUE(objects.holds()) << spec << ": m predicted " << objects.predicted << ", measured ["
+                                 << objects.ci_low << ", " << objects.ci_high << "]";
+    EXPECT_EQ(volumes.measured, volumes.predicted) << spec;
+    EXPECT_EQ(volumes.predicted, geometry.size()) << spec;
+
+    const double b = figures.at("mean_volume_cost"), i = figures.at("mean_object_cost");
+    EXPECT_GE(b, 1) << spec;
+    EXPECT_GT(i, b / 2) << spec;
+    const double total = b * volumes.predicted + i * objects.predicted;
+    EXPECT_GE(total, b * volumes.measured + i * objects.ci_low) << spec;
+    EXPECT_LE(total, b * volumes.measured + i * objects.ci_high) << spec;
+  }
+}
 
 /// The law is about uniform lines: rays from one point break it, and the check says so.
 TEST(Equation3, FailsForRaysThatAreNotUniform) {

@@ -63,6 +63,12 @@ constexpr Vec3<Real> max(const Vec3<Real>& a, const Vec3<Real>& b) {
   return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
+/// The axis of the largest component; of equal ones the first.
+template <class Real>
+constexpr int largest_axis(const Vec3<Real>& a) {
+  return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+}
+
 /// The largest component by magnitude.
 template <class Real>
 Real max_abs(const Vec3<Real>& a) {
