@@ -180,7 +180,7 @@ class HugBuilder {
 
   /// The object's box, grown or shrunk, but never turned inside out.
   index::Box3 neighbourhood(std::uint32_t object) const {
-    const Box<double> box(Vec3d(geometry_.bounds(object).lo), Vec3d(geometry_.bounds(object).hi));
+    const Box<double> box{Vec3d(geometry_.bounds(object).lo), Vec3d(geometry_.bounds(object).hi)};
     const double by = config_.connectivity * diagonal(object);
     Box<double> grown;
     for (int axis = 0; axis < 3; ++axis) {

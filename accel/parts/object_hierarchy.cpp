@@ -34,9 +34,9 @@ class Histogram {
     const Vec3d extent = box.extent();
     const double longest = max_abs(extent);
     scale_ = resolution / longest;
+    if (!tells_apart()) return;
     for (int axis = 0; axis < 3; ++axis)
       cells_[axis] = std::clamp(static_cast<int>(std::ceil(extent[axis] * scale_)), 1, resolution);
-    if (!tells_apart()) return;
     counts_.resize(static_cast<std::size_t>(cells_[0]) * cells_[1] * cells_[2]);
     for (const Item& item : items) ++counts_[number(cell(item))];
   }

@@ -89,6 +89,24 @@ TEST(BvhGoldsmithSalmon, KeepsTheBestOfSeveralShuffles) {
   EXPECT_DOUBLE_EQ(expected_tests(*build("bvh_goldsmith_salmon", geometry, {{"shuffles", "6"}})), best);
 }
 
+TEST(BvhGoldsmithSalmon, ReportsHowFarOrdersSpread) {
+  const Scene scene = soup_scene(500);
+  const Geometry<double> geometry(scene);
+  const auto volume_tests = [&](const Given& given) {
+    // The root's own test depends on no order.
+    return build("bvh_goldsmith_salmon", geometry, given)->predicted()->volume_tests - 1;
+  };
+  double sum = 0, worst = 0;
+  for (const char* seed : {"1", "2", "3", "4", "5", "6"})
+    sum += volume_tests({{"seed", seed}}), worst = std::max(worst, volume_tests({{"seed", seed}}));
+  const Given six{{"shuffles", "6"}};
+  const auto figures = build("bvh_goldsmith_salmon", geometry, six)->structure().figures;
+  EXPECT_NEAR(figures.at("best_order_volume_tests"), volume_tests(six), 1e-9);
+  EXPECT_NEAR(figures.at("mean_order_volume_tests"), sum / 6, 1e-9);
+  EXPECT_NEAR(figures.at("worst_order_volume_tests"), worst, 1e-9);
+  EXPECT_LT(figures.at("best_order_volume_tests"), figures.at("mean_order_volume_tests"));
+}
+
 TEST(BvhGoldsmithSalmon, SortingIsDetrimental) {
   // The paper's observation. The sphereflake shows it by more than a factor of two, uniform random objects do
   // not.
