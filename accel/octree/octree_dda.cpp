@@ -4,7 +4,7 @@
 // Idea       Among the eight children of a voxel a ray moves as in a grid of 2x2x2, with the three-dimensional digital
 //            differential analyser. Where a step leads out of their parent, it goes up, level by level, until it can be
 //            made among siblings; where it leads into a divided voxel, it goes down to the child that the ray enters.
-// Parameters max_depth, max_objects, assignment, mailbox
+// Parameters max_depth, max_objects, assignment, separating, mailbox
 //                         of the octree, as octree_revelles has them
 // Cost       a horizontal step for each voxel, and as many vertical ones as levels lie between; all are steps, and are
 //            counted apart.

@@ -4,7 +4,7 @@
 // Idea       A voxel is known by the interval of parameters during which the ray is inside. Its three dividing planes are
 //            crossed at three parameters; sorted, they cut the interval into at most four, during each of which the ray is
 //            in one child. Those children, in that order, are entered the same way.
-// Parameters max_depth, max_objects, assignment, mailbox
+// Parameters max_depth, max_objects, assignment, separating, mailbox
 //                         of the octree, as octree_revelles has them
 // Cost       three crossings and a sort for every interior voxel on the ray. Steps are the voxels that are entered, as many
 //            as those of octree_revelles; the crossings that had to be sorted are counted.

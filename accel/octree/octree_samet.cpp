@@ -4,7 +4,7 @@
 // Idea       The ray goes from leaf to leaf. The neighbour across the face by which it leaves is found through links: up
 //            to the nearest common ancestor, the first of which the leaf is in the nearer half, and down again by the
 //            mirror image of the way. Where the neighbour is divided, the ray tells which of its leaves it enters.
-// Parameters max_depth, max_objects, assignment, mailbox
+// Parameters max_depth, max_objects, assignment, separating, mailbox
 //                         of the octree, as octree_revelles has them
 // Cost       links followed, which are the steps: on average four for a neighbour, wherever in the tree it is, against
 //            the whole depth for octree_glassner. 4 bytes for every eight nodes more than octree_revelles.

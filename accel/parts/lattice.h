@@ -51,7 +51,11 @@ Lattice<Real> Lattice<Real>::over(const Box<Real>& box, int max_depth, Real thin
   for (int axis = 0; axis < 3; ++axis) {
     const Real width = box.hi[axis] - box.lo[axis];
     if (width >= thinnest * layers) {
+      // Widen it on both sides alike, so that a box about the origin is divided at the origin; where it lies too far from
+      // there for that, on one.
       lattice.step[axis] = width * (1 + 2 * Limits::epsilon()) / layers;
+      lattice.lo[axis] = box.lo[axis] - width * Limits::epsilon();
+      if (lattice.plane(axis, lattice.layers()) < box.hi[axis]) lattice.lo[axis] = box.lo[axis];
     } else {
       // A third of the thickened width is never near a plane of any depth.
       lattice.step[axis] = 3 * thinnest;

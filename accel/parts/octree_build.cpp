@@ -17,13 +17,16 @@ std::vector<Parameter> octree_parameters() {
       integer_parameter("max_objects", OctreeLimits{}.max_objects, 1, 1'000'000,
                         "a cell with that many objects or fewer is not divided"),
       choice_parameter("assignment", "surface", {"surface", "box"},
-                       "a leaf refers to the objects whose surface penetrates it, or whose bounds touch it")};
+                       "a leaf refers to the objects whose surface penetrates it, or whose bounds touch it"),
+      boolean_parameter("separating", true,
+                        "a cell that two divisions in a row would not separate is a leaf at once")};
 }
 
 OctreeLimits octree_limits(const Arguments& arguments) {
   return {.max_depth = static_cast<int>(arguments.integer("max_depth")),
           .max_objects = static_cast<std::uint32_t>(arguments.integer("max_objects")),
-          .assignment = arguments.text("assignment") == "box" ? Assignment::box : Assignment::surface};
+          .assignment = arguments.text("assignment") == "box" ? Assignment::box : Assignment::surface,
+          .separating = arguments.boolean("separating")};
 }
 
 int suitable_depth(std::uint32_t objects) {
@@ -81,7 +84,8 @@ class OctreeBuilder {
       if (depth == octree_.lattice.depth) break;
       const int child_size = octree_.lattice.layers() >> (depth + 1);
       sort_into_children(child_size);
-      close_cells([](const OpenCell& cell) { return !cell.separable() && !cell.separated; });
+      if (limits_.separating)
+        close_cells([](const OpenCell& cell) { return !cell.separable() && !cell.separated; });
       if (cells_.empty() || !storage_suffices()) break;
       divide(child_size);
     }

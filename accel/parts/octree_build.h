@@ -16,6 +16,9 @@ struct OctreeLimits {
   /// A cell with that many objects or fewer is a leaf.
   std::uint32_t max_objects = 8;
   Assignment assignment = Assignment::surface;
+  /// A cell is also a leaf where neither the division that made it nor the next would separate anything, all eight
+  /// children getting all of its objects: what meets in a point cannot be told apart however deep.
+  bool separating = true;
   /// Glassner's storage limitation: no level is begun that would bring the references beyond this many per
   /// object and `kSpareReferences`.
   std::uint64_t references_per_object = 64;
@@ -55,9 +58,8 @@ struct Octree {
   }
 };
 
-/// Divide the scene's bounds until the limits are reached. A cell is also a leaf where dividing it would
-/// separate nothing, all eight children getting all of its objects: what meets in a point cannot be told
-/// apart however deep. Levels are built in parallel; the result does not depend on the number of threads.
+/// Divide the scene's bounds until the limits are reached. Levels are built in parallel; the result does not depend on the
+/// number of threads.
 template <class Real>
 Octree<Real> build_octree(const Geometry<Real>& geometry, const OctreeLimits& limits);
 

@@ -12,7 +12,8 @@ std::optional<double> structure_figure(const std::string& figure, const report::
   if (figure == "leaves") return number(structure.leaves);
   if (figure == "empty_leaves") return number(structure.empty_leaves);
   if (figure == "references") return number(structure.references);
-  return std::nullopt;
+  const auto own = structure.figures.find(figure);
+  return own == structure.figures.end() ? std::nullopt : std::optional(own->second);
 }
 
 std::optional<double> work_figure(const std::string& figure, const report::Work& work, double rays) {
@@ -21,6 +22,7 @@ std::optional<double> work_figure(const std::string& figure, const report::Work&
   if (figure == "steps_per_ray") return per_ray(work.steps);
   if (figure == "cells_per_ray") return per_ray(work.cells);
   if (figure == "empty_cells_per_ray") return per_ray(work.empty_cells);
+  if (figure == "volume_tests_per_ray") return per_ray(work.volume_tests);
   if (figure == "object_tests") return static_cast<double>(work.object_tests);
   if (figure == "volume_tests") return static_cast<double>(work.volume_tests);
   return std::nullopt;

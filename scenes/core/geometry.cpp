@@ -99,8 +99,10 @@ void Geometry<Real>::append(ObjectKind kind, std::vector<Object>& objects, const
 /// Append one object of the scene unless it is unusable; returns the reason in that case.
 template <class Real>
 std::string Geometry<Real>::try_append(const Scene& scene, std::uint32_t scene_object) {
+  // GOLEM kept triangles without area, which no ray hits.
+  const bool area_matters = bounds_rule_ == BoundsRule::tight;
   const auto append_if_usable = [&](auto& objects, ObjectKind kind, const auto& object, std::string reason) {
-    if (reason.empty()) reason = unusable(object);
+    if (reason.empty() && (area_matters || kind != ObjectKind::triangle)) reason = unusable(object);
     if (reason.empty()) append(kind, objects, object, scene_object);
     return reason;
   };
@@ -153,8 +155,21 @@ std::string Geometry<Real>::try_append(const Scene& scene, std::uint32_t scene_o
 
 template <class Real>
 Box<Real> Geometry<Real>::havran_bounds(std::uint32_t object) const {
-  Box<Real> box = tight_bounds(object);
-  if (kind(object) == ObjectKind::sphere || kind(object) == ObjectKind::cone) return box;
+  Box<Real> box;
+  switch (kind(object)) {
+    case ObjectKind::sphere:
+      return exact_bounds(sphere(object));
+    case ObjectKind::cone: {
+      const Box<double> exact = exact_bounds(cone(object));
+      return {Vec3<Real>(exact.lo), Vec3<Real>(exact.hi)};
+    }
+    case ObjectKind::triangle:
+      for (const Vec3<Real>& vertex : {triangle(object).a, triangle(object).b, triangle(object).c})
+        box.include(vertex);
+      break;
+    case ObjectKind::polygon:
+      for (const Vec3<Real>& vertex : polygon_vertices(object)) box.include(vertex);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     if (!(box.hi[axis] - box.lo[axis] < static_cast<Real>(kThinPolygon))) continue;
     box.lo[axis] -= static_cast<Real>(kWidening);

@@ -15,9 +15,9 @@ namespace rayshoot {
 /// Which side of a cone or cylinder can be hit; spheres, triangles and polygons are always two-sided.
 enum class ConeSides { both, outside };
 
-/// How bounds are drawn around objects. tight: as near as rounding allows. havran: as Havran's tracer GOLEM did, so that
-/// structures come out as he published them: a polygon's box is widened by 0.02 on both sides of every axis along which
-/// it is thinner than that, and the box of the scene by 0.001 on every side.
+/// How bounds are drawn around objects. tight: as near as allows for rounding. havran: as Havran's tracer GOLEM did, so that
+/// structures come out as he published them: exact boxes, but a polygon's is widened by 0.02 on both sides of every axis along
+/// which it is thinner than that; the scene's box by 0.001 on every side; triangles without area stay in the scene.
 enum class BoundsRule { tight, havran };
 inline constexpr std::array<const char*, 2> kBoundsRuleNames = {"tight", "havran"};
 
