@@ -4,7 +4,7 @@
 // Idea       Among the eight children of a voxel a ray moves as in a grid of 2x2x2, with the three-dimensional digital
 //            differential analyser. Where a step leads out of their parent, it goes up, level by level, until it can be
 //            made among siblings; where it leads into a divided voxel, it goes down to the child that the ray enters.
-// Parameters max_depth, max_objects, assignment, separating, mailbox
+// Parameters max_depth, max_objects, assignment, split, separating, mailbox
 //                         of the octree, as octree_revelles has them
 // Cost       a horizontal step for each voxel, and as many vertical ones as levels lie between; all are steps, and are
 //            counted apart.
@@ -42,22 +42,22 @@ class OctreeDda : public OctreeTechnique<OctreeDda, Real> {
   void traverse(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     const LatticeRay<Real> path(cells_.lattice(), ray);
     const Ancestry tree(cells_);
-    const LeafOrder<Real, Ancestry> order(tree, path, cells_.lattice().layers());
+    const LeafOrder<Real, Ancestry> order(tree, path, cells_.lattice());
     const auto across = [&](Voxel& voxel, int axis, Real first) {
       // Vertical traversal: leave every voxel of which this is the farther half.
-      int level = voxel.node.level;
-      for (; level > 0 && (voxel.corner[axis] & voxel.size); --level) {
+      const unsigned on_axis = 1u << axis, farther = on_axis & ~path.mirror();
+      Placed from = voxel.node;
+      int levels = 0;
+      for (; from.level > 0 && (cells_.octant(from.node) & on_axis) == farther; ++levels) {
         count.step(), count.event(steps_up);
-        voxel.size *= 2;
-        voxel.corner[axis] &= -voxel.size;
+        from = tree.ancestor(from.level - 1);
       }
-      if (level == 0) return false;
+      if (from.level == 0) return false;
 
       // Horizontal traversal: step to the sibling on that axis.
-      for (int& layer : voxel.corner) layer &= -voxel.size;
-      voxel.corner[axis] += voxel.size;
       count.step(), count.event(horizontal_steps);
-      voxel.node = tree.child(tree.ancestor(level - 1), octant_of(voxel.corner, voxel.size) ^ path.mirror());
+      const Placed sibling = tree.child(tree.ancestor(from.level - 1), cells_.octant(from.node) ^ on_axis);
+      voxel = {cells_.behind(axis, voxel, sibling.node, levels, path), sibling};
 
       // Vertical traversal: enter divided voxels down to a leaf.
       voxel = order.first_leaf(voxel, first, [&] { count.step(), count.event(steps_down); });
@@ -74,7 +74,7 @@ class OctreeDda : public OctreeTechnique<OctreeDda, Real> {
     const Node* node;
     int level;
   };
-  using Voxel = CellOnRay<Real, Placed>;
+  using Voxel = CellOnRay<Placed>;
 
   /// The nodes as a tree that remembers the way down to the node that was asked for last.
   class Ancestry {
@@ -83,6 +83,9 @@ class OctreeDda : public OctreeTechnique<OctreeDda, Real> {
 
     Placed root() const { return {cells_.root(), 0}; }
     bool interior(const Placed& placed) const { return placed.node->interior(); }
+    Layers dividing(const Placed& placed, const LatticeCell& cell, const LatticeRay<Real>& path) const {
+      return cells_.dividing(placed.node, cell, path);
+    }
     Placed child(const Placed& parent, unsigned octant) const {
       ancestors_[parent.level] = parent.node;
       return {cells_.child(parent.node, octant), parent.level + 1};

@@ -4,7 +4,7 @@
 // Idea       A voxel is known by the interval of parameters during which the ray is inside. Its three dividing planes are
 //            crossed at three parameters; sorted, they cut the interval into at most four, during each of which the ray is
 //            in one child. Those children, in that order, are entered the same way.
-// Parameters max_depth, max_objects, assignment, separating, mailbox
+// Parameters max_depth, max_objects, assignment, split, separating, mailbox
 //                         of the octree, as octree_revelles has them
 // Cost       three crossings and a sort for every interior voxel on the ray. Steps are the voxels that are entered, as many
 //            as those of octree_revelles; the crossings that had to be sorted are counted.
@@ -39,8 +39,8 @@ class OctreeGargantini : public OctreeTechnique<OctreeGargantini, Real> {
   template <class Counter, class Reach, class Visit>
   void traverse(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     const LatticeRay<Real> path(cells_.lattice(), ray);
-    const Cell root{cells_.root(), {0, 0, 0}, cells_.lattice().layers()};
-    const Interval<Real> whole = path.inside(root.corner, root.size);
+    const Cell root{cells_.lattice().whole(), cells_.root()};
+    const Interval<Real> whole = path.inside(root);
     if (std::max(whole.enter, ray.t_min) <= std::min(whole.exit, reach()))
       Descent<Counter, Reach, Visit>{cells_, path, ray.t_min, count, reach, visit}.into(root, whole);
   }
@@ -72,9 +72,10 @@ class OctreeGargantini : public OctreeTechnique<OctreeGargantini, Real> {
       Crossing ahead[3];
       int planes = 0;
       unsigned octant = 0;
+      const Layers dividing = cells.dividing(cell.node, cell, path);
       for (int axis = 0; axis < 3; ++axis) {
-        const int middle = cell.corner[axis] + cell.size / 2;
-        const Crossing crossing{path.entry(axis, middle), path.exit(axis, middle), 1u << axis};
+        const Crossing crossing{path.entry(axis, dividing[axis]), path.exit(axis, dividing[axis]),
+                                1u << axis};
         crossings[axis] = crossing;
         if (crossing.exit < first)
           octant |= crossing.upper_half;
@@ -87,12 +88,12 @@ class OctreeGargantini : public OctreeTechnique<OctreeGargantini, Real> {
       sort(ahead, planes);
       for (int k = 0; k + 1 < planes; ++k)
         if (!(ahead[k].exit < ahead[k + 1].enter)) [[unlikely]]
-          return into_all(cell, inside, crossings);
+          return into_all(cell, dividing, inside, crossings);
       Real enter = inside.enter;
       for (int k = 0;; ++k) {
         const Interval<Real> part{enter, k < planes ? std::min(inside.exit, ahead[k].exit) : inside.exit};
         if (!met(part)) return false;
-        if (part.enter <= reach() && into(child(cell, octant), part)) return true;
+        if (part.enter <= reach() && into(child(cell, dividing, octant), part)) return true;
         if (k == planes) return false;
         octant |= ahead[k].upper_half;
         enter = std::max(inside.enter, ahead[k].enter);
@@ -100,11 +101,12 @@ class OctreeGargantini : public OctreeTechnique<OctreeGargantini, Real> {
     }
 
     /// Where planes may be crossed together, by an edge or a vertex, ask every child.
-    [[gnu::noinline, gnu::cold]] bool into_all(const Cell& cell, const Interval<Real>& inside,
+    [[gnu::noinline, gnu::cold]] bool into_all(const Cell& cell, const Layers& dividing,
+                                               const Interval<Real>& inside,
                                                const Crossing* crossings) const {
       for (unsigned octant = 0; octant < 8; ++octant) {
         const Interval<Real> part = within(inside, crossings, octant);
-        if (met(part) && part.enter <= reach() && into(child(cell, octant), part)) return true;
+        if (met(part) && part.enter <= reach() && into(child(cell, dividing, octant), part)) return true;
       }
       return false;
     }
@@ -124,8 +126,8 @@ class OctreeGargantini : public OctreeTechnique<OctreeGargantini, Real> {
       return part;
     }
     bool met(const Interval<Real>& part) const { return part.enter <= part.exit && part.exit >= t_min; }
-    Cell child(const Cell& cell, unsigned octant) const {
-      return cell.child(cells.child(cell.node, octant ^ path.mirror()), octant);
+    Cell child(const Cell& cell, const Layers& dividing, unsigned octant) const {
+      return {cell.child(octant, dividing), cells.child(cell.node, octant ^ path.mirror())};
     }
   };
 };

@@ -14,6 +14,8 @@
 //                         not pay for naming every voxel from the root.
 //            assignment   surface, the paper's: a voxel lists the objects whose surface penetrates it, so the
 //                         inside of a ball is empty; box: those whose bounds touch it.
+//            split        centre, the paper's; cost, as octree_revelles
+//            separating   on: division ends early where it would separate nothing; off: it does not
 //            mailbox      auto: where an object is listed twice; the paper has none (§5.3).
 // Cost       For each voxel on the ray a hash look-up on every level above it, and its objects. Steps are
 //            look-ups.
@@ -43,7 +45,7 @@ class NodeTable {
   using Name = std::uint64_t;
   struct Node {
     Name name = 0;
-    /// A leaf's objects: `count` references from `first` on.
+    /// A leaf's objects: `count` references from `first` on; of an interior node its number in the octree.
     std::uint32_t first = 0, count = 0;
     bool interior() const { return count == kInterior; }
   };
@@ -97,7 +99,8 @@ NodeTable named(const Octree<Real>& octree) {
     if (node.interior())
       for (unsigned octant = 0; octant < 8; ++octant)
         names[node.first + octant] = NodeTable::child(names[i], octant);
-    if (node.count > 0) kept.push_back({names[i], node.first, node.count});
+    if (node.count > 0)
+      kept.push_back({names[i], node.interior() ? static_cast<std::uint32_t>(i) : node.first, node.count});
   }
   return NodeTable(kept);
 }
@@ -107,7 +110,6 @@ class OctreeGlassner {
  public:
   using Scalar = Real;
   using Scratch = Mailbox;
-  using Layers = typename LatticeRay<Real>::Layers;
   struct Config {
     OctreeLimits limits;
     MailboxUse mailbox = MailboxUse::automatic;
@@ -117,7 +119,7 @@ class OctreeGlassner {
     NodeTable::Name name = 0;
     const NodeTable::Node* node = nullptr;
   };
-  using Voxel = CellOnRay<Real, Named>;
+  using Voxel = CellOnRay<Named>;
 
   static TechniqueInfo info() {
     TechniqueInfo info{.id = "octree_glassner",
@@ -137,11 +139,11 @@ class OctreeGlassner {
     OctreeGlassner technique;
     Octree<Real> octree = build_octree(in.geometry, config.limits);
     technique.nodes_ = named(octree);
-    technique.lattice_ = octree.lattice;
-    technique.references_ = std::move(octree.references);
+    octree.nodes = {};
+    technique.octree_ = std::move(octree);
     if (config.limits.assignment == Assignment::surface)
       technique.margin_ = SurfaceMargin<Real>(in.geometry.bounds());
-    if (wants_mailbox(config.mailbox, technique.references_.size(), in.geometry.size()))
+    if (wants_mailbox(config.mailbox, technique.octree_.references.size(), in.geometry.size()))
       technique.mailboxes_ = in.geometry.size();
     return technique;
   }
@@ -162,9 +164,9 @@ class OctreeGlassner {
   /// The same with all that is known of a voxel.
   template <class Counter, class Reach, class Visit>
   void visit_voxels(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    const LatticeRay<Real> path(lattice_, ray);
-    const ByName<Counter> names{nodes_, count};
-    const LeafOrder<Real, ByName<Counter>> order(names, path, lattice_.layers());
+    const LatticeRay<Real> path(octree_.lattice, ray);
+    const ByName<Counter> names{nodes_, octree_, count};
+    const LeafOrder<Real, ByName<Counter>> order(names, path, octree_.lattice);
     if (const Real margin = margin_ ? margin_->of_ray(ray) : 0; margin != 0) [[unlikely]] {
       // Rays too far away for the margin of the surfaces visit every voxel that they pass at no more than theirs.
       order.visit_leaves(
@@ -176,13 +178,12 @@ class OctreeGlassner {
     // Q is the origin, or the point where the ray enters the box of the environment; then it is stepped into the
     // neighbour, minlen/2 beyond the exit face, and located from the root (Figure 11).
     const auto across = [&](Voxel& voxel, int axis, Real first) {
-      const int face = voxel.corner[axis] + voxel.size;
-      if (face == lattice_.layers()) return false;
+      const int face = voxel.end(axis);
+      if (face == octree_.lattice.layers()) return false;
       Layers q;
       for (int other = 0; other < 3; ++other)
-        q[other] = other == axis ? face
-                                 : path.passed_layer(other, first, voxel.corner[other],
-                                                     voxel.corner[other] + voxel.size - 1);
+        q[other] =
+            other == axis ? face : path.passed_layer(other, first, voxel.corner[other], voxel.end(other) - 1);
       voxel = located(names, order, q);
       return true;
     };
@@ -191,19 +192,20 @@ class OctreeGlassner {
 
   std::span<const std::uint32_t> objects(const Voxel& voxel) const {
     const NodeTable::Node* leaf = voxel.node.node;
-    return leaf ? std::span(references_).subspan(leaf->first, leaf->count) : std::span<const std::uint32_t>{};
+    return leaf ? std::span(octree_.references).subspan(leaf->first, leaf->count)
+                : std::span<const std::uint32_t>{};
   }
 
   StructureStats structure() const {
-    StructureStats stats{.nodes = 1, .leaves = 1, .empty_leaves = 1, .references = references_.size()};
+    StructureStats stats{.nodes = 1, .leaves = 1, .empty_leaves = 1, .references = octree_.references.size()};
     for (const NodeTable::Node& node : nodes_.nodes()) {
       if (node.interior())
         stats.nodes += 8, stats.leaves += 7, stats.empty_leaves += 7;
       else if (node.name != 0)
         --stats.empty_leaves;
     }
-    stats.max_depth = static_cast<std::uint64_t>(lattice_.depth);
-    stats.bytes = nodes_.bytes() + references_.size() * sizeof(std::uint32_t);
+    stats.max_depth = static_cast<std::uint64_t>(octree_.depth);
+    stats.bytes = nodes_.bytes() + octree_.bytes();
     return stats;
   }
 
@@ -212,6 +214,7 @@ class OctreeGlassner {
   template <class Counter>
   struct ByName {
     const NodeTable& nodes;
+    const Octree<Real>& octree;
     Counter count;
 
     Named find(NodeTable::Name name) const {
@@ -223,19 +226,25 @@ class OctreeGlassner {
     Named child(const Named& named, unsigned octant) const {
       return find(NodeTable::child(named.name, octant));
     }
+    Layers dividing(const Named& named, const LatticeCell& cell, const LatticeRay<Real>& path) const {
+      return octree.dividing(named.node->first, cell, path);
+    }
   };
 
   /// Name the way down from the root to the voxel of layers q, as the ray sees them.
   template <class Names>
   static Voxel located(const Names& names, const LeafOrder<Real, Names>& order, const Layers& q) {
     Voxel voxel = order.root();
-    while (names.interior(voxel.node)) voxel = order.child(voxel, octant_of(q, voxel.size / 2));
+    while (names.interior(voxel.node)) {
+      const Layers planes = order.dividing(voxel);
+      voxel = order.child(voxel, planes, octant_of(q, planes));
+    }
     return voxel;
   }
 
   NodeTable nodes_;
-  Lattice<Real> lattice_;
-  std::vector<std::uint32_t> references_;
+  /// The octree but for its nodes, which are named instead.
+  Octree<Real> octree_;
   /// Set where objects are assigned by their surfaces.
   std::optional<SurfaceMargin<Real>> margin_;
   /// Objects that need a mailbox; none where mailboxes are off.

@@ -7,6 +7,10 @@
 // Parameters max_depth    divisions below the root; 0 suits it to the number of objects as octree_glassner does
 //            max_objects  a voxel with that many objects or fewer is not divided; 8, as octree_glassner
 //            assignment   surface lists an object where its surface penetrates, box where its bounds touch
+//            split        centre divides a voxel in its middle; cost where the surfaces of the parts, each times its objects,
+//                         sum up to the least, as MacDonald and Booth's planes, on each axis by itself
+//            separating   on: a voxel that two divisions in a row would not separate is a leaf at once; off only limits end
+//                         division, as in Havran's octrees
 //            mailbox      auto: where an object is listed twice
 // Cost       six products for every interior voxel on the ray, and a comparison for every child; no look-ups from the
 //            root. Steps are the voxels that are entered.
@@ -43,8 +47,8 @@ class OctreeRevelles : public OctreeTechnique<OctreeRevelles, Real> {
   void traverse(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     // Leave out rays that miss the root; a root that is a leaf is all there is.
     const LatticeRay<Real> path(cells_.lattice(), ray);
-    const Cell root{cells_.root(), {0, 0, 0}, cells_.lattice().layers()};
-    const Interval<Real> whole = path.inside(root.corner, root.size);
+    const Cell root{cells_.lattice().whole(), cells_.root()};
+    const Interval<Real> whole = path.inside(root);
     if (!(std::max(whole.enter, ray.t_min) <= std::min(whole.exit, reach()))) return;
     count.step();
     if (!root.node->interior()) {
@@ -54,8 +58,8 @@ class OctreeRevelles : public OctreeTechnique<OctreeRevelles, Real> {
 
     Voxel stack[kMaxOctreeDepth];
     int top = 0;
-    stack[0].begin(root);
-    stack[0].planes.begin(path, root.corner, root.size);
+    stack[0].begin(root, cells_, path);
+    stack[0].planes.begin(path, root, stack[0].dividing);
     stack[0].octant = first_child(stack[0].planes, ray.t_min);
     while (top >= 0) {
       // Take the child that the ray is in, and find the one after it.
@@ -77,8 +81,8 @@ class OctreeRevelles : public OctreeTechnique<OctreeRevelles, Real> {
         continue;
       }
       Voxel& below = stack[++top];
-      below.begin(voxel.cell.child(node, octant));
-      below.planes.begin_child(path, below.cell.corner, below.cell.size, voxel.planes, octant);
+      below.begin({voxel.cell.child(octant, voxel.dividing), node}, cells_, path);
+      below.planes.begin_child(path, below.dividing, voxel.planes, octant);
       below.octant = first_child(below.planes, ray.t_min);
     }
   }
@@ -87,12 +91,16 @@ class OctreeRevelles : public OctreeTechnique<OctreeRevelles, Real> {
   /// An interior voxel on the ray, and the child to be visited next, 8 when there is none.
   struct Voxel {
     Cell cell;
+    /// The layers at which it is divided, and where the ray crosses these planes and its faces.
+    Layers dividing;
     DividedCell<Real> planes;
     unsigned octant;
     /// Whether the order of the dividing planes is in doubt, so that all children are compared.
     bool in_doubt;
 
-    void begin(const Cell& here) { cell = here, in_doubt = false; }
+    void begin(const Cell& here, const OctreeCells<Real>& cells, const LatticeRay<Real>& path) {
+      cell = here, dividing = cells.dividing(here.node, here, path), in_doubt = false;
+    }
   };
 
   /// first_node of the paper: the child that the ray is in first, beyond each plane that it has certainly passed.

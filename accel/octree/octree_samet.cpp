@@ -4,7 +4,7 @@
 // Idea       The ray goes from leaf to leaf. The neighbour across the face by which it leaves is found through links: up
 //            to the nearest common ancestor, the first of which the leaf is in the nearer half, and down again by the
 //            mirror image of the way. Where the neighbour is divided, the ray tells which of its leaves it enters.
-// Parameters max_depth, max_objects, assignment, separating, mailbox
+// Parameters max_depth, max_objects, assignment, split, separating, mailbox
 //                         of the octree, as octree_revelles has them
 // Cost       links followed, which are the steps: on average four for a neighbour, wherever in the tree it is, against
 //            the whole depth for octree_glassner. 4 bytes for every eight nodes more than octree_revelles.
@@ -52,9 +52,9 @@ class OctreeSamet : public OctreeTechnique<OctreeSamet, Real> {
   template <class Counter, class Reach, class Visit>
   void traverse(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     const LatticeRay<Real> path(cells_.lattice(), ray);
-    const LeafOrder<Real, OctreeCells<Real>> order(cells_, path, cells_.lattice().layers());
+    const LeafOrder<Real, OctreeCells<Real>> order(cells_, path, cells_.lattice());
     const auto across = [&](Cell& leaf, int axis, Real first) {
-      if (!find_neighbour(leaf, axis, path.mirror(), count)) return false;
+      if (!find_neighbour(leaf, axis, path, count)) return false;
       // Go down to the neighbour that the ray enters, where several smaller ones touch the face.
       leaf = order.first_leaf(leaf, first, [&] { count.step(), count.event(links_down); });
       return true;
@@ -67,32 +67,29 @@ class OctreeSamet : public OctreeTechnique<OctreeSamet, Real> {
 
   /// The neighbour of equal or larger size across the farther face on an axis; false when there is none.
   template <class Counter>
-  bool find_neighbour(Cell& cell, int axis, unsigned mirror, Counter count) const {
+  bool find_neighbour(Cell& cell, int axis, const LatticeRay<Real>& path, Counter count) const {
     // Go up to the nearest common ancestor: that of which the cell is in the nearer half.
     const unsigned farther = 1u << axis;
     unsigned way[kMaxOctreeDepth];
     int levels = 0;
-    const int face = cell.corner[axis] + cell.size;
     const Node* node = cell.node;
     unsigned octant = 0;
     do {
       if (node == cells_.root()) return false;
-      octant = octant_of(node) ^ mirror;
+      octant = cells_.octant(node) ^ path.mirror();
       way[levels++] = octant;
       node = parent(node);
       count.step(), count.event(links_up);
     } while (octant & farther);
 
-    // Go down its farther half by the mirror image of the way up, as far as there are nodes.
+    // Go down its farther half by the mirror image of the way up, as far as there are nodes; where cells are not divided
+    // alike the ray has to tell the way, but for the first step.
     do {
       octant = way[--levels] ^ farther;
-      node = cells_.child(node, octant ^ mirror);
+      node = cells_.child(node, octant ^ path.mirror());
       count.step(), count.event(links_down);
-    } while (levels > 0 && node->interior());
-    cell.node = node;
-    cell.size <<= levels;
-    for (int& layer : cell.corner) layer &= -cell.size;
-    cell.corner[axis] = face;
+    } while (levels > 0 && node->interior() && cells_.divided_alike());
+    cell = {cells_.behind(axis, cell, node, levels, path), node};
     return true;
   }
 
@@ -100,7 +97,6 @@ class OctreeSamet : public OctreeTechnique<OctreeSamet, Real> {
   std::size_t siblings(const Node* node) const {
     return static_cast<std::size_t>(node - cells_.root() - 1) / 8;
   }
-  unsigned octant_of(const Node* node) const { return static_cast<unsigned>(node - cells_.root() - 1) % 8; }
   const Node* parent(const Node* node) const { return cells_.root() + parents_[siblings(node)]; }
 
   void link_parents() {

@@ -6,7 +6,37 @@
 
 namespace rayshoot {
 
-/// The planes on which the cells of a regular subdivision into eight may begin and end: a box cut on each
+/// A number of a layer, or of the plane at which it begins, on each axis.
+using Layers = std::array<int, 3>;
+
+/// A cell of whole layers.
+struct LatticeCell {
+  Layers corner{}, size{};
+
+  int end(int axis) const { return corner[axis] + size[axis]; }
+  Layers centre() const {
+    return {corner[0] + size[0] / 2, corner[1] + size[1] / 2, corner[2] + size[2] / 2};
+  }
+  /// The part on one side of a plane on each axis: octant bit k tells the upper side on axis k.
+  LatticeCell child(unsigned octant, const Layers& planes) const {
+    LatticeCell child;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int lower = planes[axis] - corner[axis];
+      const bool upper = octant >> axis & 1;
+      child.corner[axis] = upper ? planes[axis] : corner[axis];
+      child.size[axis] = upper ? size[axis] - lower : lower;
+    }
+    return child;
+  }
+};
+
+/// The octant of a layer among the eight parts beside three planes.
+inline unsigned octant_of(const Layers& layers, const Layers& planes) {
+  return (layers[0] >= planes[0] ? 1u : 0u) | (layers[1] >= planes[1] ? 2u : 0u) |
+         (layers[2] >= planes[2] ? 4u : 0u);
+}
+
+/// The planes on which the cells of a subdivision into eight may begin and end: a box cut on each
 /// axis into 2^depth layers of equal thickness. Plane k of an axis is computed by one formula, by whoever
 /// asks, so that the cell to which an object is assigned and the cell that a ray passes are the same to the
 /// last bit.
@@ -25,9 +55,10 @@ struct Lattice {
   int layers() const { return 1 << depth; }
   Real plane(int axis, int k) const { return lo[axis] + static_cast<Real>(k) * step[axis]; }
 
-  /// The cell of `size`^3 layers from layer `corner` on.
-  Box<Real> cell(const std::array<int, 3>& corner, int size) const;
-  Box<Real> box() const { return cell({0, 0, 0}, layers()); }
+  /// The cell of `size` layers from layer `corner` on.
+  Box<Real> cell(const LatticeCell& cell) const;
+  Box<Real> box() const { return cell(whole()); }
+  LatticeCell whole() const { return {{0, 0, 0}, {layers(), layers(), layers()}}; }
 
   /// Every 2^(depth - coarser)th plane: the same planes, because a power of two scales without rounding.
   Lattice coarsened(int coarser) const {
@@ -66,11 +97,11 @@ Lattice<Real> Lattice<Real>::over(const Box<Real>& box, int max_depth, Real thin
 }
 
 template <class Real>
-Box<Real> Lattice<Real>::cell(const std::array<int, 3>& corner, int size) const {
+Box<Real> Lattice<Real>::cell(const LatticeCell& cell) const {
   Box<Real> box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.lo[axis] = plane(axis, corner[axis]);
-    box.hi[axis] = plane(axis, corner[axis] + size);
+    box.lo[axis] = plane(axis, cell.corner[axis]);
+    box.hi[axis] = plane(axis, cell.end(axis));
   }
   return box;
 }
@@ -80,8 +111,6 @@ Box<Real> Lattice<Real>::cell(const std::array<int, 3>& corner, int size) const 
 template <class Real>
 class LatticeRay {
  public:
-  using Layers = std::array<int, 3>;
-
   LatticeRay(const Lattice<Real>& lattice, const Ray<Real>& ray) : lattice_(lattice), crossings_(ray) {
     for (int axis = 0; axis < 3; ++axis) {
       const bool backwards = crossings_.inverse[axis] < 0;
@@ -102,20 +131,32 @@ class LatticeRay {
   /// octants of the lattice, and back.
   unsigned mirror() const { return mirror_; }
 
-  /// The closed interval of parameters inside the cell of `size`^3 layers from `corner` on. Empty for rays that
-  /// are not numbers.
-  Interval<Real> inside(const Layers& corner, int size) const {
+  /// Planes of the lattice as the ray sees them, or back.
+  Layers mirrored(const Layers& planes) const {
+    return {first_[0] + sign_[0] * planes[0], first_[1] + sign_[1] * planes[1],
+            first_[2] + sign_[2] * planes[2]};
+  }
+  /// The same for a cell.
+  LatticeCell mirrored(const LatticeCell& cell) const {
+    LatticeCell seen{mirrored(cell.corner), cell.size};
+    for (int axis = 0; axis < 3; ++axis)
+      if (sign_[axis] < 0) seen.corner[axis] -= cell.size[axis];
+    return seen;
+  }
+
+  /// The closed interval of parameters inside a cell. Empty for rays that are not numbers.
+  Interval<Real> inside(const LatticeCell& cell) const {
     return common([&](int axis) {
-      return Interval<Real>{entry(axis, corner[axis]), exit(axis, corner[axis] + size)};
+      return Interval<Real>{entry(axis, cell.corner[axis]), exit(axis, cell.end(axis))};
     });
   }
 
   /// The same for the cell grown by `margin` on every side.
-  Interval<Real> near(const Layers& corner, int size, Real margin) const {
+  Interval<Real> near(const LatticeCell& cell, Real margin) const {
     return common([&](int axis) {
       const Real along = static_cast<Real>(sign_[axis]) * margin;
-      return Interval<Real>{crossings_.enter(axis, position(axis, corner[axis]) - along),
-                            crossings_.exit(axis, position(axis, corner[axis] + size) + along)};
+      return Interval<Real>{crossings_.enter(axis, position(axis, cell.corner[axis]) - along),
+                            crossings_.exit(axis, position(axis, cell.end(axis)) + along)};
     });
   }
 

@@ -18,6 +18,8 @@ std::vector<Parameter> octree_parameters() {
                         "a cell with that many objects or fewer is not divided"),
       choice_parameter("assignment", "surface", {"surface", "box"},
                        "a leaf refers to the objects whose surface penetrates it, or whose bounds touch it"),
+      choice_parameter("split", "centre", {"centre", "cost"},
+                       "where a cell is divided: in its middle, or where surfaces times objects are least"),
       boolean_parameter("separating", true,
                         "a cell that two divisions in a row would not separate is a leaf at once")};
 }
@@ -26,6 +28,7 @@ OctreeLimits octree_limits(const Arguments& arguments) {
   return {.max_depth = static_cast<int>(arguments.integer("max_depth")),
           .max_objects = static_cast<std::uint32_t>(arguments.integer("max_objects")),
           .assignment = arguments.text("assignment") == "box" ? Assignment::box : Assignment::surface,
+          .split = arguments.text("split") == "cost" ? OctreeSplit::cost : OctreeSplit::centre,
           .separating = arguments.boolean("separating")};
 }
 
@@ -39,7 +42,9 @@ namespace {
 /// A cell of the level under construction, its objects, and after sorting what its children get.
 struct OpenCell {
   std::uint32_t node = 0;
-  std::array<int, 3> corner{};
+  LatticeCell cell{};
+  /// The planes that divide it.
+  Layers planes{};
   std::uint64_t first = 0;
   std::uint32_t count = 0;
   std::array<std::uint32_t, 8> child_counts{};
@@ -65,9 +70,10 @@ class OctreeBuilder {
             kSpareReferences + limits.references_per_object * geometry.size(), UINT32_MAX - 1)) {
     if (limits.assignment == Assignment::surface) margin_ = SurfaceMargin<Real>(geometry.bounds()).of_cells();
     // Cells not much thicker than the margin would all get the same objects.
-    octree_.lattice = Lattice<Real>::over(
-        geometry.bounds(), limits.max_depth ? limits.max_depth : suitable_depth(geometry.size()),
-        4 * margin_);
+    max_depth_ = limits.max_depth ? limits.max_depth : suitable_depth(geometry.size());
+    octree_.lattice =
+        Lattice<Real>::over(geometry.bounds(), by_cost() ? kMaxOctreeDepth : max_depth_, 4 * margin_);
+    max_depth_ = std::min(max_depth_, octree_.lattice.depth);
   }
 
   Octree<Real> build() && {
@@ -75,22 +81,24 @@ class OctreeBuilder {
     octree_.nodes.resize(1);
     objects_.resize(geometry_.size());
     std::iota(objects_.begin(), objects_.end(), 0u);
-    cells_.push_back({.count = geometry_.size()});
+    cells_.push_back({.cell = octree_.lattice.whole(), .count = geometry_.size()});
 
     // Level by level, divide every cell with too many objects, if that separates them and storage allows.
-    int depth = 0;
+    int& depth = octree_.depth;
     for (;; ++depth) {
-      close_cells([&](const OpenCell& cell) { return cell.count <= limits_.max_objects; });
-      if (depth == octree_.lattice.depth) break;
-      const int child_size = octree_.lattice.layers() >> (depth + 1);
-      sort_into_children(child_size);
+      close_cells([&](const OpenCell& cell) {
+        const auto& [x, y, z] = cell.cell.size;
+        return cell.count <= limits_.max_objects || std::min({x, y, z}) < 2;
+      });
+      if (depth == max_depth_) break;
+      sort_into_children();
       if (limits_.separating)
         close_cells([](const OpenCell& cell) { return !cell.separable() && !cell.separated; });
       if (cells_.empty() || !storage_suffices()) break;
-      divide(child_size);
+      divide();
     }
     close_cells([](const OpenCell&) { return true; });
-    octree_.lattice = octree_.lattice.coarsened(depth);
+    if (!by_cost()) octree_.lattice = octree_.lattice.coarsened(depth);
     return std::move(octree_);
   }
 
@@ -101,18 +109,70 @@ class OctreeBuilder {
     std::erase_if(cells_, [&](const OpenCell& cell) {
       if (!done(cell)) return false;
       octree_.nodes[cell.node] = {static_cast<std::uint32_t>(octree_.references.size()), cell.count};
+      record(cell);
       const auto begin = objects_.begin() + static_cast<std::ptrdiff_t>(cell.first);
       octree_.references.insert(octree_.references.end(), begin, begin + cell.count);
       return true;
     });
   }
 
-  void sort_into_children(int child_size) {
+  bool by_cost() const { return limits_.split == OctreeSplit::cost; }
+
+  /// Keep where a node is, unless that follows from where it stands in the tree.
+  void record(const OpenCell& cell) {
+    if (!by_cost()) return;
+    octree_.places.resize(octree_.nodes.size());
+    octree_.places[cell.node] = {cell.cell, cell.planes};
+  }
+
+  /// Choose the plane on an axis among some from the middle of a cell to the median of the objects' centres. Each part has
+  /// a surface, and the objects that touch it; the sum of their products is to be least.
+  int cheapest_plane(const OpenCell& cell, int axis) const {
+    constexpr int kPlanes = 10;
+    std::vector<Real> lo, hi, centres;
+    for (std::uint32_t k = 0; k < cell.count; ++k) {
+      const Box<Real> bounds = geometry_.bounds(objects_[cell.first + k]);
+      lo.push_back(bounds.lo[axis]), hi.push_back(bounds.hi[axis]);
+      centres.push_back(bounds.centre()[axis]);
+    }
+    std::nth_element(centres.begin(), centres.begin() + cell.count / 2, centres.end());
+    const int begin = cell.cell.corner[axis], end = cell.cell.end(axis), middle = begin + (end - begin) / 2;
+    const Real layers_below =
+        (centres[cell.count / 2] - octree_.lattice.lo[axis]) / octree_.lattice.step[axis];
+    const int median = static_cast<int>(
+        std::clamp<Real>(std::round(layers_below), static_cast<Real>(begin + 1), static_cast<Real>(end - 1)));
+
+    const Vec3d extent(octree_.lattice.cell(cell.cell).extent());
+    const double b = extent[(axis + 1) % 3], c = extent[(axis + 2) % 3];
+    int best = middle;
+    double least = Box<double>::infinity();
+    for (int i = 0; i < kPlanes; ++i) {
+      const int plane = middle + static_cast<int>(std::lround((median - middle) * (i / (kPlanes - 1.0))));
+      const Real at = octree_.lattice.plane(axis, plane);
+      const auto below =
+          std::count_if(lo.begin(), lo.end(), [&](Real begins) { return begins <= at + margin_; });
+      const auto above = std::count_if(hi.begin(), hi.end(), [&](Real ends) { return ends >= at - margin_; });
+      const double t = extent[axis] * (plane - begin) / (end - begin);
+      const double cost = static_cast<double>(below) * (2 * t * (b + c) + b * c) +
+                          static_cast<double>(above) * (2 * (extent[axis] - t) * (b + c) + b * c);
+      if (cost < least) best = plane, least = cost;
+    }
+    return best;
+  }
+
+  void choose_planes(OpenCell& cell) const {
+    cell.planes = cell.cell.centre();
+    if (by_cost())
+      for (int axis = 0; axis < 3; ++axis) cell.planes[axis] = cheapest_plane(cell, axis);
+  }
+
+  void sort_into_children() {
     octants_.resize(objects_.size());
     for_each_below(cells_.size(), [&](std::size_t i) {
       OpenCell& cell = cells_[i];
+      choose_planes(cell);
       for_each_below(cell.count, [&](std::size_t k) {
-        octants_[cell.first + k] = octants_of(objects_[cell.first + k], cell.corner, child_size);
+        octants_[cell.first + k] = octants_of(objects_[cell.first + k], cell);
       });
       for (std::uint32_t k = 0; k < cell.count; ++k)
         for (int octant = 0; octant < 8; ++octant)
@@ -121,33 +181,25 @@ class OctreeBuilder {
   }
 
   /// The children of a cell to which one of its objects belongs: bit i for octant i.
-  std::uint8_t octants_of(std::uint32_t object, const std::array<int, 3>& corner, int child_size) const {
+  std::uint8_t octants_of(std::uint32_t object, const OpenCell& cell) const {
     constexpr unsigned lower_halves[] = {0b01010101, 0b00110011, 0b00001111};
     const Box<Real> bounds = geometry_.bounds(object);
     unsigned octants = 0xFF;
     for (int axis = 0; axis < 3; ++axis) {
-      const Real middle = octree_.lattice.plane(axis, corner[axis] + child_size);
-      if (!(bounds.lo[axis] <= middle + margin_)) octants &= ~lower_halves[axis];
-      if (!(bounds.hi[axis] >= middle - margin_)) octants &= lower_halves[axis];
+      const Real plane = octree_.lattice.plane(axis, cell.planes[axis]);
+      if (!(bounds.lo[axis] <= plane + margin_)) octants &= ~lower_halves[axis];
+      if (!(bounds.hi[axis] >= plane - margin_)) octants &= lower_halves[axis];
     }
     // What lies in one child by its bounds lies there with the part of its surface that is in this cell.
     if (limits_.assignment == Assignment::surface && !std::has_single_bit(octants))
       for (unsigned octant = 0; octant < 8; ++octant)
-        if ((octants >> octant & 1) &&
-            !penetrates(object, child_corner(corner, octant, child_size), child_size))
+        if ((octants >> octant & 1) && !penetrates(object, cell.cell.child(octant, cell.planes)))
           octants &= ~(1u << octant);
     return static_cast<std::uint8_t>(octants);
   }
 
-  bool penetrates(std::uint32_t object, const std::array<int, 3>& corner, int size) const {
-    return geometry_.overlaps(object, widened(octree_.lattice.cell(corner, size), margin_));
-  }
-
-  static std::array<int, 3> child_corner(const std::array<int, 3>& corner, unsigned octant, int child_size) {
-    std::array<int, 3> child = corner;
-    for (int axis = 0; axis < 3; ++axis)
-      if (octant >> axis & 1) child[axis] += child_size;
-    return child;
+  bool penetrates(std::uint32_t object, const LatticeCell& cell) const {
+    return geometry_.overlaps(object, widened(octree_.lattice.cell(cell), margin_));
   }
 
   bool storage_suffices() const {
@@ -157,17 +209,18 @@ class OctreeBuilder {
   }
 
   /// Replace the open cells by their children.
-  void divide(int child_size) {
+  void divide() {
     std::vector<OpenCell> children;
     children.reserve(8 * cells_.size());
     std::uint64_t first = 0;
     for (const OpenCell& cell : cells_) {
       octree_.nodes[cell.node] = {static_cast<std::uint32_t>(octree_.nodes.size() + children.size()),
                                   Octree<Real>::Node::kInterior};
+      record(cell);
       for (unsigned octant = 0; octant < 8; ++octant) {
         const auto node = static_cast<std::uint32_t>(octree_.nodes.size() + children.size());
         children.push_back({.node = node,
-                            .corner = child_corner(cell.corner, octant, child_size),
+                            .cell = cell.cell.child(octant, cell.planes),
                             .first = first,
                             .count = cell.child_counts[octant],
                             .separated = cell.separable()});
@@ -195,6 +248,7 @@ class OctreeBuilder {
   const Geometry<Real>& geometry_;
   OctreeLimits limits_;
   std::uint64_t max_references_;
+  int max_depth_ = 0;
   /// By how much a cell is widened before it is compared with a surface.
   Real margin_ = 0;
   Octree<Real> octree_;

@@ -9,13 +9,19 @@ namespace rayshoot {
 /// bounds touch.
 enum class Assignment { surface, box };
 
-/// When to stop dividing.
+/// Where a cell is divided. centre: in its middle. cost: on each axis by itself, at that of ten planes from the middle to the
+/// median of the objects for which the surfaces of the two parts, each times the objects that are in it, sum up to the least
+/// (V. Havran, statistics of the SPD with octrees, 1999).
+enum class OctreeSplit { centre, cost };
+
+/// When to stop dividing, and where to divide.
 struct OctreeLimits {
   /// Divisions between the root and the smallest cell, 18 at most; 0 for `suitable_depth`.
   int max_depth = 0;
   /// A cell with that many objects or fewer is a leaf.
   std::uint32_t max_objects = 8;
   Assignment assignment = Assignment::surface;
+  OctreeSplit split = OctreeSplit::centre;
   /// A cell is also a leaf where neither the division that made it nor the next would separate anything, all eight
   /// children getting all of its objects: what meets in a point cannot be told apart however deep.
   bool separating = true;
@@ -33,8 +39,8 @@ OctreeLimits octree_limits(const Arguments& arguments);
 /// two levels more for scenes that are not even.
 int suitable_depth(std::uint32_t objects);
 
-/// An octree over a scene, before any technique has put it into the form it works with. A cell is divided at
-/// its centre on all three axes; octant bit k tells the upper half on axis k.
+/// An octree over a scene, before any technique has put it into the form it works with. A cell is divided by a plane on
+/// each axis; octant bit k tells the upper side on axis k.
 template <class Real>
 struct Octree {
   struct Node {
@@ -46,15 +52,34 @@ struct Octree {
     bool interior() const { return count == kInterior; }
   };
 
-  /// As deep as the deepest leaf: its step is the edge of the smallest cells.
+  /// A node's cell, and the planes that divide it.
+  struct Place {
+    LatticeCell cell;
+    Layers planes{};
+  };
+
+  /// Divided at centres, as deep as the deepest leaf: its step is the edge of the smallest cells. Otherwise so fine that any
+  /// plane is near one of its planes.
   Lattice<Real> lattice;
+  /// Divisions down to the deepest leaf.
+  int depth = 0;
   /// Level by level from the root, nodes[0].
   std::vector<Node> nodes;
   /// The leaves' objects, in increasing order within a leaf.
   std::vector<std::uint32_t> references;
+  /// By node, where planes were chosen by cost; empty where cells are divided at their centres.
+  std::vector<Place> places;
 
   std::span<const std::uint32_t> objects(const Node& leaf) const {
     return std::span(references).subspan(leaf.first, leaf.count);
+  }
+  /// The planes that divide the interior node of that number, and its cell, as a ray sees them.
+  Layers dividing(std::size_t node, const LatticeCell& cell, const LatticeRay<Real>& path) const {
+    return places.empty() ? cell.centre() : path.mirrored(places[node].planes);
+  }
+  std::size_t bytes() const {
+    return nodes.size() * sizeof(Node) + references.size() * sizeof(references[0]) +
+           places.size() * sizeof(Place);
   }
 };
 

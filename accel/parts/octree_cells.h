@@ -17,28 +17,26 @@ struct OctreeCellsConfig {
 /// sees them: index 0 is the half of an axis that the ray comes to first.
 template <class Real>
 struct DividedCell {
-  using Layers = typename LatticeRay<Real>::Layers;
-
   /// Earliest parameter at which the ray may come into a half, and latest at which it may leave it.
   std::array<Real, 3> enter[2], exit[2];
 
-  /// Become the cell of `size`^3 layers from `corner` on.
-  void begin(const LatticeRay<Real>& path, const Layers& corner, int size) {
+  /// Become a cell that those planes divide.
+  void begin(const LatticeRay<Real>& path, const LatticeCell& cell, const Layers& planes) {
     for (int axis = 0; axis < 3; ++axis) {
-      enter[0][axis] = path.entry(axis, corner[axis]);
-      exit[1][axis] = path.exit(axis, corner[axis] + size);
+      enter[0][axis] = path.entry(axis, cell.corner[axis]);
+      exit[1][axis] = path.exit(axis, cell.end(axis));
     }
-    divide(path, corner, size);
+    divide(path, planes);
   }
   /// Become a child, whose faces are its parent's faces and dividing planes.
-  void begin_child(const LatticeRay<Real>& path, const Layers& corner, int size, const DividedCell& parent,
+  void begin_child(const LatticeRay<Real>& path, const Layers& planes, const DividedCell& parent,
                    unsigned octant) {
     for (int axis = 0; axis < 3; ++axis) {
       const unsigned half = octant >> axis & 1;
       enter[0][axis] = parent.enter[half][axis];
       exit[1][axis] = parent.exit[half][axis];
     }
-    divide(path, corner, size);
+    divide(path, planes);
   }
 
   /// The closed interval of parameters inside a child.
@@ -62,10 +60,10 @@ struct DividedCell {
   Real first(Real t_min) const { return std::max({enter[0][0], enter[0][1], enter[0][2], t_min}); }
 
  private:
-  void divide(const LatticeRay<Real>& path, const Layers& corner, int size) {
+  void divide(const LatticeRay<Real>& path, const Layers& planes) {
     for (int axis = 0; axis < 3; ++axis) {
-      enter[1][axis] = path.entry(axis, corner[axis] + size / 2);
-      exit[0][axis] = path.exit(axis, corner[axis] + size / 2);
+      enter[1][axis] = path.entry(axis, planes[axis]);
+      exit[0][axis] = path.exit(axis, planes[axis]);
     }
   }
 };
@@ -75,7 +73,7 @@ template <class Real>
 class OctreeCells {
  public:
   using Node = typename Octree<Real>::Node;
-  using Cell = CellOnRay<Real, const Node*>;
+  using Cell = CellOnRay<const Node*>;
 
   static std::vector<Parameter> parameters() {
     std::vector<Parameter> parameters = octree_parameters();
@@ -101,17 +99,36 @@ class OctreeCells {
   /// Child of an interior node, by its octant in the lattice.
   const Node* child(const Node* parent, unsigned octant) const { return root() + parent->first + octant; }
   std::span<const std::uint32_t> objects(const Node& leaf) const { return octree_.objects(leaf); }
+  /// The planes that divide an interior node, and its cell, as a ray sees them.
+  Layers dividing(const Node* node, const LatticeCell& cell, const LatticeRay<Real>& path) const {
+    return octree_.dividing(number(node), cell, path);
+  }
+  /// Which of its parent's eight children, which stand together, a node other than the root is.
+  unsigned octant(const Node* node) const { return static_cast<unsigned>(number(node) - 1) % 8; }
+  /// Whether a cell is divided as its siblings are, each in the middle.
+  bool divided_alike() const { return octree_.places.empty(); }
+  /// The cell, as the ray sees it, of a node that lies behind the farther face on an axis of another, whose cell is given,
+  /// and `levels` nearer to the root.
+  LatticeCell behind(int axis, const LatticeCell& cell, const Node* node, int levels,
+                     const LatticeRay<Real>& path) const {
+    if (!divided_alike()) return path.mirrored(octree_.places[number(node)].cell);
+    LatticeCell behind;
+    for (int k = 0; k < 3; ++k) {
+      behind.size[k] = cell.size[k] << levels;
+      behind.corner[k] = k == axis ? cell.end(k) : cell.corner[k] & -behind.size[k];
+    }
+    return behind;
+  }
   Mailbox mailbox() const { return Mailbox(mailboxes_); }
 
   /// By how much all cells are to be widened for this ray: see SurfaceMargin.
   Real margin(const Ray<Real>& ray) const { return margin_ ? margin_->of_ray(ray) : 0; }
 
   StructureStats structure() const {
-    StructureStats stats{
-        .nodes = octree_.nodes.size(),
-        .references = octree_.references.size(),
-        .max_depth = static_cast<std::uint64_t>(lattice().depth),
-        .bytes = octree_.nodes.size() * sizeof(Node) + octree_.references.size() * sizeof(std::uint32_t)};
+    StructureStats stats{.nodes = octree_.nodes.size(),
+                         .references = octree_.references.size(),
+                         .max_depth = static_cast<std::uint64_t>(octree_.depth),
+                         .bytes = octree_.bytes()};
     for (const Node& node : octree_.nodes) {
       stats.leaves += !node.interior();
       stats.empty_leaves += node.count == 0;
@@ -120,6 +137,8 @@ class OctreeCells {
   }
 
  private:
+  std::size_t number(const Node* node) const { return static_cast<std::size_t>(node - root()); }
+
   Octree<Real> octree_;
   /// Set where objects are assigned by their surfaces.
   std::optional<SurfaceMargin<Real>> margin_;

@@ -50,7 +50,7 @@ class OctreeTechnique {
   [[gnu::noinline, gnu::cold]] void visit_within(Real margin, const Ray<Real>& ray, Counter count,
                                                  const Reach& reach, const Visit& visit) const {
     const LatticeRay<Real> path(cells_.lattice(), ray);
-    const LeafOrder<Real, OctreeCells<Real>> order(cells_, path, cells_.lattice().layers());
+    const LeafOrder<Real, OctreeCells<Real>> order(cells_, path, cells_.lattice());
     order.visit_leaves(
         order.root(),
         [&](const Cell& cell) {

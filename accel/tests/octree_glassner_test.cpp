@@ -18,22 +18,18 @@ constexpr const char* kOctree = "octree_glassner";
 struct Place {
   std::string name;
   const Octree<double>::Node* node;
-  std::array<int, 3> corner;
-  int size;
+  LatticeCell cell;
 };
 
 std::vector<Place> places(const Octree<double>& octree) {
-  std::vector<Place> all{{"1", &octree.nodes[0], {0, 0, 0}, octree.lattice.layers()}};
+  std::vector<Place> all{{"1", &octree.nodes[0], octree.lattice.whole()}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Place parent = all[i];
     if (!parent.node->interior()) continue;
-    const int half = parent.size / 2;
-    for (int octant = 0; octant < 8; ++octant) {
-      std::array<int, 3> corner = parent.corner;
-      for (int axis = 0; axis < 3; ++axis) corner[axis] += (octant >> axis & 1) * half;
+    for (unsigned octant = 0; octant < 8; ++octant)
       all.push_back({parent.name + std::string("12345678")[octant],
-                     &octree.nodes[parent.node->first + octant], corner, half});
-    }
+                     &octree.nodes[parent.node->first + octant],
+                     parent.cell.child(octant, parent.cell.centre())});
   }
   return all;
 }
@@ -132,7 +128,7 @@ TEST(OctreeGlassner, DividesAVoxelWithTooManyObjectsUntilItIsAsDeepAsAllowed) {
   for (const int depth : {1, 3, 5})
     for (const std::uint32_t objects : {1u, 4u, 20u}) {
       const Octree<double> octree = build_octree(geometry, {.max_depth = depth, .max_objects = objects});
-      EXPECT_LE(octree.lattice.depth, depth);
+      EXPECT_LE(octree.depth, depth);
       for (const Place& place : places(octree))
         if (!place.node->interior() && place.node->count > objects) {
           EXPECT_EQ(place.name.size(), 1u + depth) << place.name << " could have been divided";
@@ -143,7 +139,7 @@ TEST(OctreeGlassner, DividesAVoxelWithTooManyObjectsUntilItIsAsDeepAsAllowed) {
               ->structure();
       EXPECT_EQ(stats.nodes, octree.nodes.size());
       EXPECT_EQ(stats.references, octree.references.size());
-      EXPECT_EQ(stats.max_depth, static_cast<std::uint64_t>(octree.lattice.depth));
+      EXPECT_EQ(stats.max_depth, static_cast<std::uint64_t>(octree.depth));
     }
 }
 
@@ -206,7 +202,7 @@ std::vector<Passed> passed(const Octree<double>& octree, const Ray<double>& ray,
   std::vector<Passed> passed;
   for (const Place& place : places(octree)) {
     if (place.node->interior()) continue;
-    const Box<double> box = octree.lattice.cell(place.corner, place.size);
+    const Box<double> box = octree.lattice.cell(place.cell);
     double enter = ray.t_min, exit = ray.t_max;
     for (int axis = 0; axis < 3; ++axis) {
       const double a = (box.lo[axis] - ray.origin[axis]) / ray.direction[axis];
