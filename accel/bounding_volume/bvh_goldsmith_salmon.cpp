@@ -10,6 +10,10 @@
 //                      the paper found sorted order detrimental and random orders best
 //            shuffles  how many random orders to try; 1, since every one costs a whole build
 //            seed      of the shuffles
+//            visit     nearest_first sorts the children that a ray hits; listed visits them in a fixed order, where a near
+//                      hit is found early by chance alone (§4)
+//            object_volumes
+//                      on; off: every ray that hits a node tests its objects, as Haines' figures suggest his program did
 // Cost       equation (3), exactly, for uniformly distributed rays without occlusion; the build is O(n log
 //            n).
 // Weak       objects of very different size inserted in the modeller's order; any scene that sorted order
@@ -33,6 +37,10 @@ struct GrowthConfig {
   InsertionOrder order = InsertionOrder::shuffled;
   int shuffles = 1;
   std::uint64_t seed = 1;
+  /// Whether a ray visits the children of a node near to far, or in the order in which they are listed.
+  bool nearest_first = true;
+  /// Whether the volume of an object is tested before the object.
+  bool object_volumes = true;
 };
 
 /// A tree while it grows. Nodes 0 to n-1 are the objects, n is the root, the others are interior nodes.
@@ -192,7 +200,11 @@ class BvhGoldsmithSalmon {
                 choice_parameter("order", "shuffled", {"given", "sorted", "shuffled"},
                                  "order in which objects are inserted"),
                 integer_parameter("shuffles", 1, 1, 1000, "random orders to try, of which the best is kept"),
-                integer_parameter("seed", 1, 0, 1e15, "seed of the random orders")}};
+                integer_parameter("seed", 1, 0, 1e15, "seed of the random orders"),
+                choice_parameter("visit", "nearest_first", {"nearest_first", "listed"},
+                                 "order in which a ray visits the children of a node"),
+                boolean_parameter("object_volumes", true,
+                                  "an object is tested only by rays that hit its own volume")}};
   }
   static Config configure(const Arguments& arguments) {
     const std::string& order = arguments.text("order");
@@ -203,12 +215,15 @@ class BvhGoldsmithSalmon {
                      : order == "sorted" ? InsertionOrder::sorted
                                          : InsertionOrder::shuffled,
             .shuffles = static_cast<int>(arguments.integer("shuffles")),
-            .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
+            .seed = static_cast<std::uint64_t>(arguments.integer("seed")),
+            .nearest_first = arguments.text("visit") == "nearest_first",
+            .object_volumes = arguments.boolean("object_volumes")};
   }
 
   static BvhGoldsmithSalmon build(const BuildInput<Real>& in, const Config& config) {
     BvhGoldsmithSalmon bvh;
     bvh.bounds_ = in.geometry.bounds();
+    bvh.nearest_first_ = config.nearest_first, bvh.object_volumes_ = config.object_volumes;
     if (in.geometry.size() == 0) return bvh;
 
     // Grow a tree for every order and keep the one that equation (3) likes best.
@@ -229,7 +244,7 @@ class BvhGoldsmithSalmon {
   Scratch scratch() const { return {}; }
   std::span<const std::uint32_t> order() const { return order_; }
 
-  /// Test all children of a node that is hit, then go through those hit from near to far.
+  /// Test all children of a node that is hit, then go through those hit, from near to far or as they are listed.
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch& scratch, Counter count, L& leaf) const {
     if (order_.empty()) return;
@@ -241,31 +256,37 @@ class BvhGoldsmithSalmon {
       if (enter <= std::min(inside.exit, leaf.reach())) return enter;
       return std::nullopt;
     };
-    if (!entered(bounds_)) return;
+    const std::optional<Real> enters_root = entered(bounds_);
+    if (!enters_root) return;
 
     std::vector<Postponed>& stack = scratch.stack;
     stack.clear();
     Child current{bounds_, 0, root_children_};
+    Real enters_current = *enters_root;
     while (true) {
       if (current.is_object()) {
         count.cell(false);
         if (leaf(current.first)) return;
       } else {
-        // Postpone every child that is hit, the nearest on top of the stack.
+        // Postpone every child that is hit, the first to be visited on top of the stack.
         count.step();
         const std::size_t bottom = stack.size();
         for (std::uint32_t child = current.first; child < current.last; ++child) {
-          const std::optional<Real> enter = entered(children_[child].box);
+          const bool untested = children_[child].is_object() && !object_volumes_;
+          const std::optional<Real> enter = untested ? enters_current : entered(children_[child].box);
           if (!enter) continue;
           stack.push_back({*enter, child});
+          if (!nearest_first_) continue;
           for (std::size_t i = stack.size() - 1; i > bottom && stack[i - 1].enter < stack[i].enter; --i)
             std::swap(stack[i - 1], stack[i]);
         }
+        if (!nearest_first_) std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(bottom), stack.end());
       }
-      // Take the nearest child that no hit has made pointless meanwhile.
+      // Take the next child that no hit has made pointless meanwhile.
       while (!stack.empty() && stack.back().enter > leaf.reach()) stack.pop_back();
       if (stack.empty()) return;
       current = children_[stack.back().child];
+      enters_current = stack.back().enter;
       stack.pop_back();
     }
   }
@@ -286,16 +307,23 @@ class BvhGoldsmithSalmon {
     return stats;
   }
 
-  /// Equation (3): an interior node that is hit costs a volume test for each child, an object whose volume is
-  /// hit costs an object test.
+  /// Equation (3): an interior node that is hit costs a volume test for each child, an object whose volume is hit costs an
+  /// object test; without volumes of objects, their tests are those of their node's children.
   Prediction<Real> predicted() const {
-    Prediction<Real> sum{0, 1.0 + root_children_, bounds_};
+    Prediction<Real> sum{0, 1, bounds_};
+    const auto add_children = [&](double probability, std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t child = first; child < last; ++child) {
+        const bool untested = children_[child].is_object() && !object_volumes_;
+        (untested ? sum.object_tests : sum.volume_tests) += probability;
+      }
+    };
+    add_children(1, 0, root_children_);
     for (const Child& child : children_) {
       const double probability = child.box.surface_area() / bounds_.surface_area();
-      if (child.is_object())
+      if (!child.is_object())
+        add_children(probability, child.first, child.last);
+      else if (object_volumes_)
         sum.object_tests += probability;
-      else
-        sum.volume_tests += probability * (child.last - child.first);
     }
     return sum;
   }
@@ -338,6 +366,7 @@ class BvhGoldsmithSalmon {
   std::uint32_t root_children_ = 0;
   std::uint64_t max_depth_ = 0;
   Box<Real> bounds_;
+  bool nearest_first_ = true, object_volumes_ = true;
   /// Equation (3) of every order tried, and which of them was kept.
   std::vector<double> costs_;
   std::size_t best_ = 0;

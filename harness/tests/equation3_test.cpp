@@ -20,9 +20,10 @@ class NoTracer final : public Tracer {
 };
 
 std::vector<Equation3Check> checks(const char* technique, const Geometry<double>& geometry,
-                                   const RaySet& chords) {
+                                   const RaySet& chords,
+                                   const std::map<std::string, std::string>& given = {}) {
   const TechniqueEntry& entry = technique_entry(technique);
-  const auto engine = entry.build<double>({geometry, Arguments(entry.info.parameters, {}, technique)});
+  const auto engine = entry.build<double>({geometry, Arguments(entry.info.parameters, given, technique)});
   return check_equation_3<double>(*engine, chords.rays, 2);
 }
 
@@ -50,6 +51,16 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Equation3,
                            const std::string spec = scene.param;
                            return spec.substr(0, spec.find(':'));
                          });
+
+TEST(Equation3, HoldsWithoutVolumesAboutObjects) {
+  const Scene scene = load_scene("balls:3").scene;
+  const Geometry<double> geometry(scene);
+  const RaySet chords = make_rays("chords(rays=1000000)", scene, NoTracer(), 1);
+  for (const Equation3Check& check :
+       checks("bvh_goldsmith_salmon", geometry, chords, {{"object_volumes", "off"}}))
+    EXPECT_TRUE(check.holds()) << check.quantity << ": predicted " << check.predicted << ", measured ["
+                               << check.ci_low << ", " << check.ci_high << "]";
+}
 
 /// Equation (1): all rays test every volume, n = n of them; m follows from equation (2).
 TEST(Equation1, PredictsTheTotalOfAFlatListWithinTheIntervalOfManyChords) {

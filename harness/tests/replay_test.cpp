@@ -90,6 +90,12 @@ TEST(ReplayTest, HavransOctreesOfTetraHaveHisNodes) {
         << octree;
 }
 
+TEST(LongReplayTest, HainesTestedObjectsWithoutVolumesAboutThem) {
+  const report::Report report = replayed(
+      "haines-1987", {"balls:4", "gears:4", "mount:6", "rings:7", "tree:11"}, "object_volumes=off");
+  EXPECT_EQ(expect_within(report, {{"object_tests", 0.25}}), 5);
+}
+
 TEST(LongReplayTest, HavransOctreesHaveHisNodes) {
   for (const char* octree : kOctrees) {
     const report::Report report =
