@@ -43,6 +43,7 @@ class OctreeDda : public OctreeTechnique<OctreeDda, Real> {
     const LatticeRay<Real> path(cells_.lattice(), ray);
     const Ancestry tree(cells_);
     const LeafOrder<Real, Ancestry> order(tree, path, cells_.lattice());
+    const auto down = [&] { count.step(), count.event(steps_down); };
     const auto across = [&](Voxel& voxel, int axis, Real first) {
       // Vertical traversal: leave every voxel of which this is the farther half.
       const unsigned on_axis = 1u << axis, farther = on_axis & ~path.mirror();
@@ -60,10 +61,10 @@ class OctreeDda : public OctreeTechnique<OctreeDda, Real> {
       voxel = {cells_.behind(axis, voxel, sibling.node, levels, path), sibling};
 
       // Vertical traversal: enter divided voxels down to a leaf.
-      voxel = order.first_leaf(voxel, first, [&] { count.step(), count.event(steps_down); });
+      voxel = order.first_leaf(voxel, first, down);
       return true;
     };
-    order.walk(ray.t_min, reach, across,
+    order.walk(ray.t_min, reach, down, across,
                [&](const Voxel& voxel) { return visit(cells_.objects(*voxel.node.node)); });
   }
 

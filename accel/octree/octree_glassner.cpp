@@ -187,7 +187,8 @@ class OctreeGlassner {
       voxel = located(names, order, q);
       return true;
     };
-    order.walk(ray.t_min, reach, across, visit);
+    order.walk(
+        ray.t_min, reach, [] {}, across, visit);
   }
 
   std::span<const std::uint32_t> objects(const Voxel& voxel) const {

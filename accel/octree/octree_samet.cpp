@@ -53,13 +53,15 @@ class OctreeSamet : public OctreeTechnique<OctreeSamet, Real> {
   void traverse(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     const LatticeRay<Real> path(cells_.lattice(), ray);
     const LeafOrder<Real, OctreeCells<Real>> order(cells_, path, cells_.lattice());
+    const auto down = [&] { count.step(), count.event(links_down); };
     const auto across = [&](Cell& leaf, int axis, Real first) {
       if (!find_neighbour(leaf, axis, path, count)) return false;
       // Go down to the neighbour that the ray enters, where several smaller ones touch the face.
-      leaf = order.first_leaf(leaf, first, [&] { count.step(), count.event(links_down); });
+      leaf = order.first_leaf(leaf, first, down);
       return true;
     };
-    order.walk(ray.t_min, reach, across, [&](const Cell& leaf) { return visit(cells_.objects(*leaf.node)); });
+    order.walk(ray.t_min, reach, down, across,
+               [&](const Cell& leaf) { return visit(cells_.objects(*leaf.node)); });
   }
 
  private:

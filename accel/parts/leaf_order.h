@@ -80,16 +80,18 @@ class LeafOrder {
   }
 
   /// Go from leaf to leaf.
+  ///   entered()                  is called for every cell on the way to the first leaf
   ///   across(leaf, axis, first)  moves to the first leaf behind the face, which the ray enters at `first`; false when
   ///                              it leaves the octree
   ///   visit(leaf)                is called with every leaf; true ends the walk
   /// Where the ray may leave by an edge or a vertex, the next leaf is searched from the root.
-  template <class Reach, class Across, class Visit>
-  void walk(Real t_min, const Reach& reach, const Across& across, const Visit& visit) const {
+  template <class Reach, class Entered, class Across, class Visit>
+  void walk(Real t_min, const Reach& reach, const Entered& entered, const Across& across,
+            const Visit& visit) const {
     const Interval<Real> whole = path_.inside(whole_);
     const Real begin = std::max(whole.enter, t_min);
     if (!(begin <= std::min(whole.exit, reach()))) return;
-    Cell leaf = first_leaf(root(), begin, [] {});
+    Cell leaf = first_leaf(root(), begin, entered);
     while (!visit(leaf)) {
       const int axis = exit_axis(leaf);
       if (axis < 3) [[likely]] {

@@ -16,13 +16,15 @@ std::optional<double> structure_figure(const std::string& figure, const report::
   return own == structure.figures.end() ? std::nullopt : std::optional(own->second);
 }
 
-std::optional<double> work_figure(const std::string& figure, const report::Work& work, double rays) {
+std::optional<double> work_figure(const std::string& figure, const report::Work& work, double rays,
+                                  double hits) {
   const auto per_ray = [&](std::uint64_t count) { return std::optional(static_cast<double>(count) / rays); };
   if (figure == "object_tests_per_ray") return per_ray(work.object_tests);
   if (figure == "steps_per_ray") return per_ray(work.steps);
   if (figure == "cells_per_ray") return per_ray(work.cells);
   if (figure == "empty_cells_per_ray") return per_ray(work.empty_cells);
   if (figure == "volume_tests_per_ray") return per_ray(work.volume_tests);
+  if (figure == "object_tests_per_hit") return static_cast<double>(work.object_tests) / hits;
   if (figure == "object_tests") return static_cast<double>(work.object_tests);
   if (figure == "volume_tests") return static_cast<double>(work.volume_tests);
   return std::nullopt;
@@ -42,7 +44,9 @@ std::optional<double> figure_of(const std::string& figure, const report::Measure
   if (measurement.structure) value = structure_figure(figure, *measurement.structure);
   if (value || !measurement.work) return value;
   const auto rays = static_cast<double>(set.rays.size() + set.counts.total_internal_reflections);
-  return work_figure(figure, *measurement.work, rays);
+  const RayCounts& counts = set.counts;
+  const auto hits = static_cast<double>(counts.primary_hits + counts.shadow_hits + counts.secondary_hits);
+  return work_figure(figure, *measurement.work, rays, hits);
 }
 
 std::vector<report::PublishedFigure> compared(const PublishedRow& row, const report::Measurement& measurement,

@@ -48,11 +48,20 @@ auto claims(std::vector<PublishedClaim>& target) {
 }  // namespace
 
 const std::vector<std::string>& figure_names() {
-  static const std::vector<std::string> names{
-      "interior_nodes",       "leaves",        "empty_leaves",  "references",
-      "object_tests_per_ray", "steps_per_ray", "cells_per_ray", "empty_cells_per_ray",
-      "volume_tests_per_ray", "object_tests",  "volume_tests",  "orphans",
-      "hierarchy_nodes"};
+  static const std::vector<std::string> names{"interior_nodes",
+                                              "leaves",
+                                              "empty_leaves",
+                                              "references",
+                                              "object_tests_per_ray",
+                                              "steps_per_ray",
+                                              "cells_per_ray",
+                                              "empty_cells_per_ray",
+                                              "volume_tests_per_ray",
+                                              "object_tests_per_hit",
+                                              "object_tests",
+                                              "volume_tests",
+                                              "orphans",
+                                              "hierarchy_nodes"};
   return names;
 }
 

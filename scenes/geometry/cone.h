@@ -39,8 +39,9 @@ Box<Real> bounds(const Cone<Real>& cone) {
 }
 
 /// The quadratic f(s) = a s^2 + 2 b s + c that is negative inside the infinite cone, and what is needed to tell
-/// where along the axis a root lies. The parameter s counts from the point of the ray nearest to the cone's
-/// middle, at distance `nearest`, which keeps far origins from cancelling in the discriminant.
+/// where along the axis a root lies. The parameter s counts from the point of the ray nearest to the axis, or to the cone's
+/// middle where that is far beyond its ends, at distance `nearest`: this keeps far origins, and long cones, from cancelling in
+/// the discriminant.
 struct ConeEquation {
   double nearest;
   double a, b, c;
@@ -55,12 +56,19 @@ struct ConeEquation {
     const double slope = (static_cast<double>(cone.apex_radius) - cone.base_radius) / height;
     const double radius = cone.base_radius;
     const Vec3d direction(ray.direction), from_base = Vec3d(ray.origin) - base;
-    nearest = dot(span * 0.5 - from_base, direction) / dot(direction, direction);
-    const Vec3d origin = from_base + direction * nearest;
-    axial_origin = dot(origin, axis);
     axial_direction = dot(direction, axis);
     const Vec3d across = direction - axis * axial_direction;
-    const Vec3d aside = origin - axis * axial_origin;
+    Vec3d aside;
+    const auto count_from = [&](double s) {
+      const Vec3d origin = from_base + direction * s;
+      nearest = s;
+      axial_origin = dot(origin, axis);
+      aside = origin - axis * axial_origin;
+    };
+    count_from(dot(span * 0.5 - from_base, direction) / dot(direction, direction));
+    const double to_axis = -dot(aside, across) / dot(across, across);
+    const double axial_there = axial_origin + to_axis * axial_direction;
+    if (axial_there > -height && axial_there < 2 * height) count_from(nearest + to_axis);
     const double radius_at_origin = radius + slope * axial_origin;
     const double widening = slope * axial_direction;
     a = dot(across, across) - widening * widening;
