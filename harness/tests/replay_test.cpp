@@ -91,8 +91,8 @@ TEST(ReplayTest, HavransOctreesOfTetraHaveHisNodes) {
 }
 
 TEST(LongReplayTest, HainesTestedObjectsWithoutVolumesAboutThem) {
-  const report::Report report = replayed(
-      "haines-1987", {"balls:4", "gears:4", "mount:6", "rings:7", "tree:11"}, "object_volumes=off");
+  const report::Report report =
+      replayed("haines-1987", {"balls:4", "gears:4", "mount:6", "rings:7", "tree:11"}, "object_volumes=off");
   EXPECT_EQ(expect_within(report, {{"object_tests", 0.25}}), 5);
 }
 
@@ -102,6 +102,23 @@ TEST(LongReplayTest, HavransOctreesHaveHisNodes) {
         replayed("havran-1999", {"balls:4", "gears:4", "teapot:12", "tetra:6"}, octree, "whitted@9");
     EXPECT_EQ(expect_within(report, kSameStructure), 64) << octree;
   }
+}
+
+/// His traversal of 1993 ends as ours does, with any hit in reach, and steps as often. He counts more of the empty cells.
+TEST(ReplayTest, HavransOctreesOf1993DoHisWorkOnTetra) {
+  const report::Report report = replayed("havran-1999", {"tetra:6"}, "octree_gargantini(?!.*cost)");
+  EXPECT_EQ(expect_within(report, {{"steps_per_ray", 0.001}, {"object_tests_per_hit", 0.003}}), 8);
+}
+
+/// Those of 1984 and 1989 end with a hit inside the cell that they are in, and so do more; of 1989 he counts the root too.
+TEST(ReplayTest, HavransOctreesOf1984And1989DoAboutHisWorkOnTetra) {
+  const Limits limits{
+      {"object_tests_per_hit", 0.07}, {"cells_per_ray", 0.015}, {"empty_cells_per_ray", 0.015}};
+  EXPECT_EQ(expect_within(replayed("havran-1999", {"tetra:6"}, "octree_samet"),
+                          with(limits, "steps_per_ray", 0.05)),
+            16);
+  const report::Report of_1984 = replayed("havran-1999", {"tetra:6"}, "octree_glassner(?!.*cost)");
+  EXPECT_EQ(expect_within(of_1984, with(limits, "steps_per_ray", 0.015)), 16);
 }
 
 /// Of what he leaves open the numbers of nodes at least are near: which ten planes he tries, and when a cell gets a grid.
