@@ -7,7 +7,7 @@ namespace rayshoot {
 
 /// Parameters of the build; kd_tree's manual page explains them.
 struct KdRules {
-  double traversal_cost = 1, intersection_cost = 1.5;
+  double traversal_cost = 1, intersection_cost = 0.25;
   double empty_bonus = 0.2;
   /// 0 for 8 + 1.3 times the binary logarithm of the number of objects.
   int max_depth = 0;

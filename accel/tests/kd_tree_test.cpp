@@ -73,7 +73,7 @@ Scene corners() {
 
 TEST(KdTree, CutsEmptySpaceOff) {
   const Geometry<double> geometry(corners());
-  const auto engine = build(kTree, geometry);
+  const auto engine = build(kTree, geometry, {{"intersection_cost", "1.5"}});
   const Ray<double> through_the_void{.origin = {-10, 50, 50}, .direction = {1, 0.01, 0.01}};
   const Work work = counted(*engine, Query::closest, {through_the_void}).work;
   EXPECT_EQ(work.object_tests, 0u);
