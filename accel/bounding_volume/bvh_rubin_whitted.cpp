@@ -31,13 +31,13 @@ struct RubinWhittedConfig {
 };
 
 template <class Real>
-class BvhRubinWhitted {
+class BvhRubinWhitted : public VolumeTree<Real> {
+  using Tree = VolumeTree<Real>;
+
  public:
-  using Scalar = Real;
   using Config = RubinWhittedConfig;
-  struct Scratch {
-    typename VolumeTree<Real>::Stack stack;
-  };
+  using Tree::Tree;
+  using typename Tree::Scratch;
 
   static TechniqueInfo info() {
     std::vector<Parameter> parameters = hierarchy_parameters();
@@ -57,20 +57,14 @@ class BvhRubinWhitted {
 
   static BvhRubinWhitted build(const BuildInput<Real>& in, const Config& config) {
     // Turn a box where it has less surface so.
-    BvhRubinWhitted bvh;
-    bvh.tree_ = VolumeTree<Real>(in.geometry, object_hierarchy(in.geometry, config.hierarchy),
-                                 [&](const std::array<Volume<Real>, 4>& volumes) {
-                                   const auto& straight = volumes[static_cast<int>(VolumeKind::axis_box)];
-                                   const auto& turned = volumes[static_cast<int>(VolumeKind::oriented_box)];
-                                   const bool smaller = turned.surface_area() < straight.surface_area();
-                                   return config.turned && smaller ? turned : straight;
-                                 });
-    return bvh;
+    return BvhRubinWhitted(in.geometry, object_hierarchy(in.geometry, config.hierarchy),
+                           [&](const std::array<Volume<Real>, 4>& volumes) {
+                             const auto& straight = volumes[static_cast<int>(VolumeKind::axis_box)];
+                             const auto& turned = volumes[static_cast<int>(VolumeKind::oriented_box)];
+                             const bool smaller = turned.surface_area() < straight.surface_area();
+                             return config.turned && smaller ? turned : straight;
+                           });
   }
-
-  Scratch scratch() const { return {}; }
-  std::span<const std::uint32_t> order() const { return tree_.order(); }
-  StructureStats structure() const { return tree_.structure(); }
 
   /// Transform the ray once into the frame of each turned box that is tested.
   template <class Counter, class L>
@@ -78,11 +72,8 @@ class BvhRubinWhitted {
     const auto tested = [&](VolumeKind kind) {
       if (kind == VolumeKind::oriented_box) count.event(0);
     };
-    tree_.visit(ray, scratch.stack, count, tested, leaf);
+    this->visit_met(ray, scratch, count, tested, leaf);
   }
-
- private:
-  VolumeTree<Real> tree_;
 };
 
 }  // namespace

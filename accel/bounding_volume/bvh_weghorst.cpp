@@ -32,13 +32,13 @@ struct WeghorstConfig {
 };
 
 template <class Real>
-class BvhWeghorst {
+class BvhWeghorst : public VolumeTree<Real> {
+  using Tree = VolumeTree<Real>;
+
  public:
-  using Scalar = Real;
   using Config = WeghorstConfig;
-  struct Scratch {
-    typename VolumeTree<Real>::Stack stack;
-  };
+  using Tree::Tree;
+  using typename Tree::Scratch;
 
   static TechniqueInfo info() {
     std::vector<Parameter> parameters = hierarchy_parameters();
@@ -57,28 +57,18 @@ class BvhWeghorst {
 
   static BvhWeghorst build(const BuildInput<Real>& in, const Config& config) {
     // Choose the volume of each node by itself.
-    BvhWeghorst bvh;
-    bvh.tree_ = VolumeTree<Real>(in.geometry, object_hierarchy(in.geometry, config.hierarchy),
-                                 [&](const std::array<Volume<Real>, 4>& volumes) {
-                                   return config.kind
-                                              ? volumes[static_cast<std::size_t>(*config.kind)]
-                                              : cheapest_volume<Real>(volumes, VolumeFit::projected_area);
-                                 });
-    return bvh;
+    return BvhWeghorst(in.geometry, object_hierarchy(in.geometry, config.hierarchy),
+                       [&](const std::array<Volume<Real>, 4>& volumes) {
+                         return config.kind ? volumes[static_cast<std::size_t>(*config.kind)]
+                                            : cheapest_volume<Real>(volumes, VolumeFit::projected_area);
+                       });
   }
-
-  Scratch scratch() const { return {}; }
-  std::span<const std::uint32_t> order() const { return tree_.order(); }
-  StructureStats structure() const { return tree_.structure(); }
 
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch& scratch, Counter count, L& leaf) const {
     const auto tested = [&](VolumeKind kind) { count.event(static_cast<std::size_t>(kind)); };
-    tree_.visit(ray, scratch.stack, count, tested, leaf);
+    this->visit_met(ray, scratch, count, tested, leaf);
   }
-
- private:
-  VolumeTree<Real> tree_;
 };
 
 }  // namespace

@@ -2,15 +2,11 @@
 
 #include <numbers>
 
-#include "accel/parts/planar.h"
-
 namespace rayshoot {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Corners of the polygon about an end circle of a cone.
-constexpr int kCircleCorners = 16;
 
 /// Volumes are computed with so many roundings at the most that this part of their size and place covers them.
 constexpr double kFitError = 64 * std::numeric_limits<double>::epsilon();
@@ -143,24 +139,6 @@ Volume<Real> fit_cylinder(std::span<const SurfaceBall> balls, const Volume<Real>
   return best;
 }
 
-void append_corners(const Box<double>& box, std::vector<SurfaceBall>& balls) {
-  for (int corner = 0; corner < 8; ++corner)
-    balls.push_back({{corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                      corner & 4 ? box.hi.z : box.lo.z}});
-}
-
-/// The corners of a regular polygon about a circle across a unit axis.
-void append_circle(const Vec3d& centre, double radius, const Vec3d& axis, std::vector<SurfaceBall>& balls) {
-  if (radius == 0) return balls.push_back({centre});
-  const Vec3d u = normalized(cross(std::abs(axis.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}, axis));
-  const Vec3d v = cross(axis, u);
-  const double to_corner = radius / std::cos(kPi / kCircleCorners);
-  for (int k = 0; k < kCircleCorners; ++k) {
-    const double angle = 2 * kPi * k / kCircleCorners;
-    balls.push_back({centre + (u * std::cos(angle) + v * std::sin(angle)) * to_corner});
-  }
-}
-
 }  // namespace
 
 Parameter volume_kind_parameter() {
@@ -252,39 +230,6 @@ double Volume<Real>::enclosed_volume() const {
   return 0;
 }
 
-void append_frustum(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius,
-                    std::vector<SurfaceBall>& balls) {
-  const Vec3d axis = normalized(apex - base);
-  append_circle(base, base_radius, axis, balls);
-  append_circle(apex, apex_radius, axis, balls);
-}
-
-template <class Real>
-void append_surface(const Geometry<Real>& geometry, std::uint32_t object, std::vector<SurfaceBall>& balls) {
-  switch (geometry.kind(object)) {
-    case ObjectKind::triangle: {
-      const Triangle<Real>& triangle = geometry.triangle(object);
-      for (const Vec3<Real>& vertex : {triangle.a, triangle.b, triangle.c}) balls.push_back({Vec3d(vertex)});
-      return;
-    }
-    case ObjectKind::sphere: {
-      const Sphere<Real>& sphere = geometry.sphere(object);
-      return balls.push_back({Vec3d(sphere.centre), sphere.radius});
-    }
-    case ObjectKind::cone: {
-      const Cone<Real>& cone = geometry.cone(object);
-      return append_frustum(Vec3d(cone.base), cone.base_radius, Vec3d(cone.apex), cone.apex_radius, balls);
-    }
-    case ObjectKind::polygon:
-      break;
-  }
-  const Polygon<Real>& polygon = geometry.polygon(object);
-  const std::span<const Vec3<Real>> vertices = geometry.polygon_vertices(object);
-  if (!is_planar(polygon, vertices))
-    return append_corners({Vec3d(polygon.box.lo), Vec3d(polygon.box.hi)}, balls);
-  for (const Vec3<Real>& vertex : vertices) balls.push_back({Vec3d(vertex)});
-}
-
 std::array<Vec3d, 3> box_axes(std::span<const SurfaceBall> balls) {
   const Vec3d mean = mean_of(balls);
   const std::array<Vec3d, 3> principal = eigenvectors(covariance(balls, mean));
@@ -324,7 +269,6 @@ const Volume<Real>& cheapest_volume(std::span<const Volume<Real>> volumes, Volum
 
 #define RAYSHOOT_INSTANTIATE(REAL)                                                                       \
   template struct Volume<REAL>;                                                                          \
-  template void append_surface(const Geometry<REAL>&, std::uint32_t, std::vector<SurfaceBall>&);         \
   template std::array<Volume<REAL>, 4> bounding_volumes(std::span<const SurfaceBall>, const Box<REAL>&); \
   template std::array<Volume<REAL>, 4> bounding_volumes(const Geometry<REAL>&,                           \
                                                         std::span<const std::uint32_t>);                 \

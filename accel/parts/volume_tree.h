@@ -11,15 +11,18 @@
 namespace rayshoot {
 
 /// A hierarchy of objects with a volume of any kind about every node. A node that a ray meets gives its own objects
-/// and then the nodes below it that the ray meets, near to far.
+/// and then the nodes below it that the ray meets, near to far. A technique derives from it and defines build and visit.
 template <class Real>
 class VolumeTree {
  public:
+  using Scalar = Real;
   struct Postponed {
     Real enter;
     std::uint32_t node;
   };
-  using Stack = std::vector<Postponed>;
+  struct Scratch {
+    std::vector<Postponed> stack;
+  };
 
   VolumeTree() = default;
 
@@ -47,13 +50,15 @@ class VolumeTree {
     below_ = {};
   }
 
+  Scratch scratch() const { return {}; }
   std::span<const std::uint32_t> order() const { return order_; }
 
   /// `tested(kind)` is told of every volume test.
   template <class Counter, class Tested, class L>
-  void visit(const Ray<Real>& ray, Stack& stack, Counter count, const Tested& tested, L& leaf) const {
+  void visit_met(const Ray<Real>& ray, Scratch& scratch, Counter count, const Tested& tested, L& leaf) const {
     if (nodes_.empty()) return;
     const VolumeRay<Real> prepared(ray);
+    std::vector<Postponed>& stack = scratch.stack;
     stack.clear();
     const auto postpone_if_met = [&](std::uint32_t node) {
       const Volume<Real>& volume = nodes_[node].volume;
