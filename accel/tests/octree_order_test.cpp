@@ -55,6 +55,38 @@ TEST(OctreeOrder, StepsAreReportedByKind) {
   for (const std::uint64_t events : {dda.events[0], dda.events[1], dda.events[2]}) EXPECT_GT(events, 0u);
 }
 
+/// A scene of [-1, 1] on every axis, divided at 0, with a triangle whose longest edge passes the middle axis at that
+/// distance, in the plane z = 0.1.
+Geometry<float> edge_beside_the_middle(float distance) {
+  SceneBuilder builder;
+  for (const double corner : {-1.0, 1.0})
+    builder.polygon(std::array{Vec3d{corner, corner, corner}, Vec3d{corner, 0.9 * corner, corner},
+                               Vec3d{0.9 * corner, corner, corner}});
+  builder.polygon(
+      std::array{Vec3d{-0.5, 0.5 + distance, 0.1}, Vec3d{0.5 + distance, -0.5, 0.1}, Vec3d{0.5, 0.5, 0.1}});
+  return Geometry<float>(std::move(builder).finish());
+}
+
+/// Whether a ray that starts at `z` and keeps on the other side of the middle axis is given the triangle.
+bool is_candidate(const char* id, float distance, float z) {
+  const Geometry<float> geometry = edge_beside_the_middle(distance);
+  const auto engine = build<float>(id, geometry, {{"max_depth", "1"}, {"max_objects", "1"}});
+  Ray<float> ray;
+  ray.origin = {-1e-7f, -1e-7f, z}, ray.direction = {0, 0, 1};
+  const auto objects = candidates(*engine, Query::strict, ray);
+  return std::find(objects.begin(), objects.end(), 2u) != objects.end();
+}
+
+/// A hit is exact to some units in the last place of the way to it: so far beside a surface it must be found all the same,
+/// and by a ray from afar farther beside.
+TEST(OctreeMargin, GrowsWithTheWayFromTheRaysOrigin) {
+  for (const char* id : kTraversals) {
+    EXPECT_TRUE(is_candidate(id, 1e-5f, -2)) << id;
+    EXPECT_FALSE(is_candidate(id, 1e-3f, -2)) << id;
+    EXPECT_TRUE(is_candidate(id, 1e-3f, -1e4f)) << id;
+  }
+}
+
 /// Samet: in a tree of 4x4x4 leaves a ray along x goes 2 down to the first leaf, 1 up and 1 down, 2 up and 2 down, 1 up and
 /// 1 down, and 2 up to leave.
 TEST(OctreeSamet, GoesUpToTheNearestCommonAncestorAlone) {
