@@ -70,6 +70,24 @@ class BvhSah {
     });
   }
 
+  /// Its leaves are the cells of a composition.
+  const BvhSah& cells(Scratch&) const { return *this; }
+  template <class Counter, class Reach, class Visit>
+  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
+    walk_pairs(tree_, ray, count, reach, [&](std::uint32_t first, std::uint32_t objects) {
+      return visit(std::span(order_).subspan(first, objects));
+    });
+  }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    std::vector<std::uint32_t> positions;
+    tree_.for_each_leaf([&](const Box<Real>& box, std::uint32_t first, std::uint32_t objects) {
+      positions.resize(objects);
+      std::iota(positions.begin(), positions.end(), first);
+      visit(box, &order_[first], positions);
+    });
+  }
+
   StructureStats structure() const {
     StructureStats stats{.nodes = tree_.size(),
                          .references = order_.size(),

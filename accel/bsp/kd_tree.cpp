@@ -104,6 +104,13 @@ class KdTree {
                         [&](const auto& leaf) { return visit(tree_.objects(leaf)); });
   }
 
+  const KdTree& cells(Scratch&) const { return *this; }
+  bool widens_cells() const { return margin_.has_value(); }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    tree_.for_each_cell(visit);
+  }
+
  private:
   /// For rays too far away for the margin of clipped surfaces, all planes are as thick as theirs.
   template <class Counter, class Reach, class Visit>

@@ -44,6 +44,11 @@ class Count {
   void mailbox_hit() const { ++work_.mailbox_hits; }
   /// An event of the kind that stands at that position of `TechniqueInfo::events`.
   void event(std::size_t kind, std::uint64_t count = 1) const { work_.events[kind] += count; }
+  /// What another traversal did within this one, but for its events.
+  void traversal(const Work& work) const {
+    work_.volume_tests += work.volume_tests, work_.steps += work.steps, work_.cells += work.cells;
+    work_.empty_cells += work.empty_cells, work_.mailbox_hits += work.mailbox_hits;
+  }
 
  private:
   Work& work_;

@@ -5,14 +5,9 @@
 
 #include "accel/core/engine.h"
 #include "accel/core/queries.h"
+#include "accel/core/technique_optimizer.h"
 
 namespace rayshoot {
-
-/// A technique that lays its objects out in an order of its own.
-template <class A>
-concept OrdersObjects = requires(const A a) {
-  { a.order() } -> std::convertible_to<std::span<const std::uint32_t>>;
-};
 
 /// A technique for which equation (3) predicts the cost.
 template <class A>
@@ -21,14 +16,17 @@ concept PredictsCost = requires(const A a) {
 };
 
 /// Derives the batch interface of an engine from a technique's `visit`.
-template <Technique A>
+template <Visitable A>
 class TechniqueEngine final : public Engine<typename A::Scalar> {
  public:
   using Real = typename A::Scalar;
 
-  explicit TechniqueEngine(const EngineInput<Real>& input)
-      : technique_(A::build({input.geometry, input.sample}, A::configure(input.arguments))),
-        geometry_(&input.geometry) {
+  explicit TechniqueEngine(const EngineInput<Real>& input) requires Technique<A>
+      : TechniqueEngine(A::build({input.geometry, input.sample}, A::configure(input.arguments)),
+                        input.geometry) {}
+
+  TechniqueEngine(A&& technique, const Geometry<Real>& geometry)
+      : technique_(std::move(technique)), geometry_(&geometry) {
     if constexpr (OrdersObjects<A>) {
       arranged_.emplace(geometry_->arranged(technique_.order()));
       geometry_ = &*arranged_;
@@ -157,13 +155,22 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
 /// The registry entry of a technique written as a template over the scalar.
 template <template <class> class A>
 TechniqueEntry define_technique() {
+  const auto engine = []<class Real>(const EngineInput<Real>& input) -> std::unique_ptr<Engine<Real>> {
+    return std::make_unique<TechniqueEngine<A<Real>>>(input);
+  };
+  const auto optimizer = []<class Real>(const OptimizerInput<Real>& input,
+                                        const Arguments& arguments) -> std::unique_ptr<Optimizer<Real>> {
+    if constexpr (HasCells<A<Real>>)
+      return std::make_unique<TechniqueIndex<A<Real>>>(input, arguments);
+    else
+      return std::make_unique<TechniqueOptimizer<A<Real>>>(input, arguments);
+  };
   return {.info = A<float>::info(),
-          .build_float = [](const EngineInput<float>& input) -> std::unique_ptr<Engine<float>> {
-            return std::make_unique<TechniqueEngine<A<float>>>(input);
-          },
-          .build_double = [](const EngineInput<double>& input) -> std::unique_ptr<Engine<double>> {
-            return std::make_unique<TechniqueEngine<A<double>>>(input);
-          }};
+          .build_float = engine,
+          .build_double = engine,
+          .optimizer_float = optimizer,
+          .optimizer_double = optimizer,
+          .indexes_space = HasCells<A<float>>};
 }
 
 /// Registers the technique `TYPE<Real>` of the file `ID.cpp`.

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "accel/core/technique.h"
+#include "accel/core/optimizer.h"
 
 namespace rayshoot {
 
@@ -19,12 +19,6 @@ struct CountedWork {
   double volume_test_squares = 0;  ///< sum over rays of (volume tests)^2
 
   CountedWork& operator+=(const CountedWork& other);
-};
-
-/// One thread's working memory for one engine.
-class EngineScratch {
- public:
-  virtual ~EngineScratch() = default;
 };
 
 /// A built technique behind the one virtual call per batch of rays. Objects in hits are those of the geometry
@@ -74,17 +68,29 @@ struct EngineInput {
 /// A technique in the registry. One file accel/<family>/<id>.cpp defines one, as `technique_<id>()`.
 struct TechniqueEntry {
   TechniqueInfo info;
-  /// Build; throws InputError when the arguments contradict one another. Null where a scalar is not
-  /// supported.
-  std::unique_ptr<Engine<float>> (*build_float)(const EngineInput<float>&) = nullptr;
-  std::unique_ptr<Engine<double>> (*build_double)(const EngineInput<double>&) = nullptr;
+  template <class Real>
+  using BuildEngine = std::function<std::unique_ptr<Engine<Real>>(const EngineInput<Real>&)>;
+  template <class Real>
+  using BuildOptimizer =
+      std::function<std::unique_ptr<Optimizer<Real>>(const OptimizerInput<Real>&, const Arguments&)>;
 
+  /// Build; throws InputError when the arguments contradict one another. Empty where a scalar is not supported.
+  BuildEngine<float> build_float{};
+  BuildEngine<double> build_double{};
+  /// The same as part of a composition; empty for what is no optimizer in the sense of Revelles and Ureña.
+  BuildOptimizer<float> optimizer_float{};
+  BuildOptimizer<double> optimizer_double{};
+
+  /// Whether it is based on spatial indexing, so that what is in its voxels can be divided again.
+  bool indexes_space = false;
+
+  bool composable() const { return optimizer_float && optimizer_double; }
   template <class Real>
   bool supports() const {
     if constexpr (std::same_as<Real, float>)
-      return build_float != nullptr;
+      return static_cast<bool>(build_float);
     else
-      return build_double != nullptr;
+      return static_cast<bool>(build_double);
   }
   template <class Real>
   std::unique_ptr<Engine<Real>> build(const EngineInput<Real>& input) const {
@@ -92,6 +98,14 @@ struct TechniqueEntry {
       return build_float(input);
     else
       return build_double(input);
+  }
+  template <class Real>
+  std::unique_ptr<Optimizer<Real>> build_optimizer(const OptimizerInput<Real>& input,
+                                                   const Arguments& arguments) const {
+    if constexpr (std::same_as<Real, float>)
+      return optimizer_float(input, arguments);
+    else
+      return optimizer_double(input, arguments);
   }
 };
 

@@ -127,7 +127,7 @@ Ray<Real> begun(Ray<Real> ray) {
 }
 
 /// The nearest hit of a ray that has `begun`.
-template <Technique A, class Real, class Test>
+template <Visitable A, class Real, class Test>
 Hit<Real> closest_hit(const A& technique, const Test& test, Naming name, const Ray<Real>& ray,
                       typename A::Scratch& scratch) {
   ClosestLeaf<Real, Test> leaf(test, name, ray);
@@ -136,7 +136,7 @@ Hit<Real> closest_hit(const A& technique, const Test& test, Naming name, const R
 }
 
 /// Whether a ray that has `begun` meets anything.
-template <Technique A, class Real, class Test>
+template <Visitable A, class Real, class Test>
 bool any_hit(const A& technique, const Test& test, Naming name, const Ray<Real>& ray,
              typename A::Scratch& scratch) {
   AnyLeaf<Real, Test> leaf(test, name, ray);
@@ -146,7 +146,7 @@ bool any_hit(const A& technique, const Test& test, Naming name, const Ray<Real>&
 
 /// Visit for a ray that has `begun` with `leaf`, counting all work but distinct objects, and leave every candidate in `candidates`:
 /// Revelles' optimizer A(r, s) with a ClosestLeaf, the strict optimizer with a StrictLeaf.
-template <Technique A, class Real, class Inner>
+template <Visitable A, class Real, class Inner>
 void counted_visit(const A& technique, const Ray<Real>& ray, typename A::Scratch& scratch, Work& work,
                    Inner& leaf, std::vector<std::uint32_t>& candidates) {
   candidates.clear();

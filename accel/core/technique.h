@@ -89,25 +89,40 @@ struct ArchetypeLeaf {
   Real reach() const { return 0; }
 };
 
-/// A technique is built once and then visits candidates, near to far where it can. Everything else is derived
-/// from `visit` (accel/core/queries.h). A technique is immutable; what a query changes lives in its Scratch.
+/// What answers queries: it visits candidates, near to far where it can. Everything else is derived from `visit`
+/// (accel/core/queries.h). It is immutable; what a query changes lives in its Scratch.
 ///
-/// A technique may also define
+/// It may also define
 ///   std::span<const std::uint32_t> order() const   to give the leaf positions in that permutation of the
 ///       objects instead of objects; the objects are then laid out in memory in that order;
 ///   Prediction<Real> predicted() const             to state what equation (3) expects; std::optional where it can do
 ///       so for some configurations only.
 template <class A>
-concept Technique = requires(const A a, typename A::Scratch scratch, BuildInput<typename A::Scalar> in,
-                             Ray<typename A::Scalar> ray, NoCount none, Count count,
-                             ArchetypeLeaf<typename A::Scalar> leaf, const Arguments& arguments) {
-  { A::info() } -> std::same_as<TechniqueInfo>;
-  { A::configure(arguments) } -> std::same_as<typename A::Config>;
-  { A::build(in, typename A::Config{}) } -> std::same_as<A>;
+concept Visitable = requires(const A a, typename A::Scratch scratch, Ray<typename A::Scalar> ray,
+                             NoCount none, Count count, ArchetypeLeaf<typename A::Scalar> leaf) {
   {a.visit(ray, scratch, none, leaf)};
   {a.visit(ray, scratch, count, leaf)};
   { a.structure() } -> std::same_as<StructureStats>;
   { a.scratch() } -> std::same_as<typename A::Scratch>;
+};
+
+/// A technique is built once from a scene and its parameters. One whose candidates are the objects of the cells on the ray may
+/// also define, to be the first part of a composition (optimizer.h),
+///   cells(scratch)         what has visit_cells (parts/visit_cells.h)
+///   for_each_cell(visit)   calls visit(box, key, positions) for each cell with objects: `key` is where the list stands that
+///                          visit_cells hands out, `positions` are the objects in it
+///   widens_cells()         optional; whether some rays are shown cells that they pass by (parts/surface_margin.h)
+template <class A>
+concept Technique = Visitable<A> && requires(BuildInput<typename A::Scalar> in, const Arguments& arguments) {
+  { A::info() } -> std::same_as<TechniqueInfo>;
+  { A::configure(arguments) } -> std::same_as<typename A::Config>;
+  { A::build(in, typename A::Config{}) } -> std::same_as<A>;
+};
+
+/// A technique that lays its objects out in an order of its own.
+template <class A>
+concept OrdersObjects = requires(const A a) {
+  { a.order() } -> std::convertible_to<std::span<const std::uint32_t>>;
 };
 
 }  // namespace rayshoot

@@ -169,6 +169,17 @@ class AdaptiveGrid {
     });
   }
 
+  const AdaptiveGrid& cells(Scratch&) const { return *this; }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    grids_.for_each_cell(visit);
+    tree_.for_each_leaf([&](const Box<Real>& box, std::uint32_t first, std::uint32_t members) {
+      const std::span<const std::uint32_t> items(members_.data() + first, members);
+      const std::span<const std::uint32_t> objects = items.first(grids_.objects_among(items));
+      if (!objects.empty()) visit(box, objects.data(), objects);
+    });
+  }
+
   StructureStats structure() const { return structure_; }
 
  private:

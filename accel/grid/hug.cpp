@@ -207,9 +207,7 @@ class Hug {
  public:
   using Scalar = Real;
   using Config = HugConfig;
-  struct Scratch {
-    Mailbox objects, grids;
-  };
+  using Scratch = NestedScratch;
 
   static TechniqueInfo info() {
     return {
@@ -252,8 +250,13 @@ class Hug {
 
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch& scratch, Counter count, L& leaf) const {
-    const NestedOnRay<Real> on_ray{grids_, root_, scratch.grids};
-    visit_objects_of_cells(on_ray, ray, scratch.objects, count, leaf);
+    visit_objects_of_cells(cells(scratch), ray, scratch.objects, count, leaf);
+  }
+
+  NestedOnRay<Real> cells(Scratch& scratch) const { return {grids_, root_, scratch.grids}; }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    grids_.for_each_cell(visit);
   }
 
   StructureStats structure() const { return structure_; }

@@ -37,7 +37,7 @@ class RecursiveGrid {
  public:
   using Scalar = Real;
   using Config = RecursiveGridConfig;
-  using Scratch = Mailbox;
+  using Scratch = NestedScratch;
 
   static TechniqueInfo info() {
     std::vector<Parameter> parameters = nesting_parameters({});
@@ -72,14 +72,18 @@ class RecursiveGrid {
     return technique;
   }
 
-  Scratch scratch() const { return Mailbox(mailboxes_); }
+  /// A nested grid stands in one cell alone and needs no mailbox.
+  Scratch scratch() const { return {Mailbox(mailboxes_), Mailbox()}; }
 
   template <class Counter, class L>
-  void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    // A nested grid stands in one cell alone and needs no mailbox.
-    Mailbox none;
-    const NestedOnRay<Real> on_ray{grids_, root_, none};
-    visit_objects_of_cells(on_ray, ray, mailbox, count, leaf);
+  void visit(const Ray<Real>& ray, Scratch& scratch, Counter count, L& leaf) const {
+    visit_objects_of_cells(cells(scratch), ray, scratch.objects, count, leaf);
+  }
+
+  NestedOnRay<Real> cells(Scratch& scratch) const { return {grids_, root_, scratch.grids}; }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    grids_.for_each_cell(visit);
   }
 
   StructureStats structure() const { return structure_; }

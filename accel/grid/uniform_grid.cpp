@@ -211,6 +211,18 @@ class UniformGrid {
       walk(std::get<HashedCellLists>(cells_));
   }
 
+  const UniformGrid& cells(Scratch&) const { return *this; }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    std::visit(
+        [&](const auto& cells) {
+          cells.for_each_list([&](std::uint64_t cell, std::span<const std::uint32_t> objects) {
+            visit(grid_.box(grid_.block(cell)), objects.data(), objects);
+          });
+        },
+        cells_);
+  }
+
   StructureStats structure() const {
     return std::visit(
         [&](const auto& cells) -> StructureStats {

@@ -197,6 +197,13 @@ class OctreeGlassner {
                 : std::span<const std::uint32_t>{};
   }
 
+  const OctreeGlassner& cells(Scratch&) const { return *this; }
+  bool widens_cells() const { return margin_.has_value(); }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    for_each_cell_below({octree_.lattice.whole(), {NodeTable::kRoot, nodes_.find(NodeTable::kRoot)}}, visit);
+  }
+
   StructureStats structure() const {
     StructureStats stats{.nodes = 1, .leaves = 1, .empty_leaves = 1, .references = octree_.references.size()};
     for (const NodeTable::Node& node : nodes_.nodes()) {
@@ -241,6 +248,18 @@ class OctreeGlassner {
       voxel = order.child(voxel, planes, octant_of(q, planes));
     }
     return voxel;
+  }
+
+  template <class Visit>
+  void for_each_cell_below(const Voxel& voxel, const Visit& visit) const {
+    const NodeTable::Node* node = voxel.node.node;
+    if (!node) return;
+    if (!node->interior()) return visit(octree_.lattice.cell(voxel), objects(voxel).data(), objects(voxel));
+    const Layers planes = octree_.dividing(node->first, voxel);
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      const NodeTable::Name name = NodeTable::child(voxel.node.name, octant);
+      for_each_cell_below({voxel.child(octant, planes), {name, nodes_.find(name)}}, visit);
+    }
   }
 
   NodeTable nodes_;

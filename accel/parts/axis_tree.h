@@ -55,6 +55,12 @@ class AxisTree {
     return {references.data() + leaf.first(), leaf.count()};
   }
 
+  /// Call visit(box, key, objects) for each leaf with objects.
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    if (!empty()) for_each_cell_below(nodes[0], box, visit);
+  }
+
   StructureStats structure() const {
     StructureStats stats{.nodes = nodes.size(),
                          .references = references.size(),
@@ -64,6 +70,18 @@ class AxisTree {
   }
 
  private:
+  template <class Visit>
+  void for_each_cell_below(const Node& node, const Box<Real>& cell, const Visit& visit) const {
+    if (node.is_leaf()) {
+      if (node.count() > 0) visit(cell, objects(node).data(), objects(node));
+      return;
+    }
+    Box<Real> lower = cell, upper = cell;
+    lower.hi[node.axis()] = upper.lo[node.axis()] = node.plane();
+    for_each_cell_below(*(&node + 1), lower, visit);
+    for_each_cell_below(*(&node + node.upper()), upper, visit);
+  }
+
   void measure(const Node& node, std::uint64_t depth, StructureStats& stats) const {
     if (node.is_leaf()) {
       ++stats.leaves, stats.empty_leaves += node.count() == 0;

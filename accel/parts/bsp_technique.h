@@ -33,6 +33,12 @@ class BspTechnique {
     visit_objects_of_cells(static_cast<const Traversal<Real>&>(*this), ray, mailbox, count, leaf);
   }
 
+  const Traversal<Real>& cells(Scratch&) const { return static_cast<const Traversal<Real>&>(*this); }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    tree_.for_each_cell(visit);
+  }
+
  protected:
   AxisTree<Real> tree_;
 

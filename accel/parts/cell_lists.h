@@ -71,6 +71,13 @@ class CellLists {
     references_.shrink_to_fit();
   }
 
+  /// Call visit(cell, objects) for each cell that refers to something.
+  template <class Visit>
+  void for_each_list(const Visit& visit) const {
+    for (std::uint64_t cell = 0; cell + 1 < first_.size(); ++cell)
+      if (first_[cell] < first_[cell + 1]) visit(cell, objects(cell));
+  }
+
   /// The references of all cells, one cell after the other.
   std::span<const std::uint32_t> all() const { return references_; }
   std::uint64_t references() const { return references_.size(); }
@@ -123,6 +130,13 @@ class HashedCellLists {
   std::span<const std::uint32_t> objects(std::uint64_t cell) const {
     const Slot& slot = slots_[slot_of(cell)];
     return {references_.data() + slot.first, references_.data() + slot.last};
+  }
+
+  /// Call visit(cell, objects) for each cell that refers to something.
+  template <class Visit>
+  void for_each_list(const Visit& visit) const {
+    for (const Slot& slot : slots_)
+      if (slot.first < slot.last) visit(slot.cell, objects(slot.cell));
   }
 
   std::uint64_t references() const { return references_.size(); }

@@ -32,6 +32,8 @@ class Mailbox {
     return true;
   }
 
+  bool met(std::uint32_t object) const { return last_ray_[object] == ray_; }
+
  private:
   std::vector<std::uint32_t> last_ray_;
   std::uint32_t ray_ = 0;

@@ -45,6 +45,16 @@ class NestedGrids {
     return objects;
   }
 
+  /// Call visit(box, key, objects) for each cell of a grid that lists objects.
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    for (const Grid& grid : grids_)
+      grid.cells.for_each_list([&](std::uint64_t cell, std::span<const std::uint32_t> items) {
+        const std::span<const std::uint32_t> objects = items.first(objects_among(items));
+        if (!objects.empty()) visit(grid.planes.box(grid.planes.block(cell)), objects.data(), objects);
+      });
+  }
+
   /// Nodes are the grids and those of their cells that list no grid, which are the leaves.
   StructureStats structure() const {
     StructureStats stats{.nodes = grids_.size()};
@@ -133,6 +143,11 @@ class NestedWalk {
   Counter count_;
   const Reach& reach_;
   const Visit& visit_;
+};
+
+/// What a thread remembers of a ray: the objects it has met, and the grids.
+struct NestedScratch {
+  Mailbox objects, grids;
 };
 
 /// The cells of a ray in an outermost grid and those nested in it, with the mailbox of a thread for grids (visit_cells.h).

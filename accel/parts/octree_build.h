@@ -77,9 +77,32 @@ struct Octree {
   Layers dividing(std::size_t node, const LatticeCell& cell, const LatticeRay<Real>& path) const {
     return places.empty() ? cell.centre() : path.mirrored(places[node].planes);
   }
+  /// The planes that divide the interior node of that number.
+  Layers dividing(std::size_t node, const LatticeCell& cell) const {
+    return places.empty() ? cell.centre() : places[node].planes;
+  }
+  /// Call visit(box, key, objects) for each leaf with objects.
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    if (!nodes.empty()) for_each_cell_below(0, lattice.whole(), visit);
+  }
+
   std::size_t bytes() const {
     return nodes.size() * sizeof(Node) + references.size() * sizeof(references[0]) +
            places.size() * sizeof(Place);
+  }
+
+ private:
+  template <class Visit>
+  void for_each_cell_below(std::size_t number, const LatticeCell& cell, const Visit& visit) const {
+    const Node& node = nodes[number];
+    if (node.interior()) {
+      const Layers planes = dividing(number, cell);
+      for (unsigned octant = 0; octant < 8; ++octant)
+        for_each_cell_below(node.first + octant, cell.child(octant, planes), visit);
+    } else if (node.count > 0) {
+      visit(lattice.cell(cell), objects(node).data(), objects(node));
+    }
   }
 };
 

@@ -120,7 +120,12 @@ class OctreeCells {
     return behind;
   }
   Mailbox mailbox() const { return Mailbox(mailboxes_); }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    octree_.for_each_cell(visit);
+  }
 
+  bool widens_cells() const { return margin_.has_value(); }
   /// By how much all cells are to be widened for this ray: see SurfaceMargin.
   Real margin(const Ray<Real>& ray) const { return margin_ ? margin_->of_ray(ray) : 0; }
 

@@ -38,6 +38,13 @@ class OctreeTechnique {
     static_cast<const Traversal<Real>&>(*this).traverse(ray, count, reach, visit);
   }
 
+  bool widens_cells() const { return cells_.widens_cells(); }
+  const Traversal<Real>& cells(Scratch&) const { return static_cast<const Traversal<Real>&>(*this); }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    cells_.for_each_cell(visit);
+  }
+
  protected:
   using Node = typename OctreeCells<Real>::Node;
   using Cell = typename OctreeCells<Real>::Cell;

@@ -37,6 +37,20 @@ struct PairTree {
   /// Nodes and leaves.
   std::uint64_t size() const { return empty() ? 0 : 2 * nodes.size() + 1; }
   std::size_t bytes() const { return nodes.size() * sizeof(PairNode<Real>); }
+
+  /// Call visit(box, first, count) for each leaf.
+  template <class Visit>
+  void for_each_leaf(const Visit& visit) const {
+    if (!empty()) for_each_leaf_below(root, bounds, visit);
+  }
+
+ private:
+  template <class Visit>
+  void for_each_leaf_below(const ChildReference& node, const Box<Real>& box, const Visit& visit) const {
+    if (node.leaf()) return visit(box, node.first, node.count);
+    for (int side = 0; side < 2; ++side)
+      for_each_leaf_below(nodes[node.first].child[side], nodes[node.first].boxes.box(side), visit);
+  }
 };
 
 }  // namespace rayshoot

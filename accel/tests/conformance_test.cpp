@@ -1,6 +1,7 @@
 #include "accel/tests/conformance.h"
 
 #include "accel/tests/built_engine.h"
+#include "accel/tests/expressions.h"
 
 namespace rayshoot {
 namespace {
@@ -98,6 +99,9 @@ TEST_P(Conformance, ThreadsChangeNothing) {
 INSTANTIATE_TEST_SUITE_P(Techniques, Conformance,
                          ::testing::ValuesIn(technique_entries().begin(), technique_entries().end()),
                          [](const auto& technique) { return technique.param->info.id; });
+
+INSTANTIATE_TEST_SUITE_P(Compositions, Conformance, ::testing::ValuesIn(composed_entries()),
+                         [](const auto& composition) { return fmt::format("number_{}", composition.index); });
 
 }  // namespace
 }  // namespace rayshoot

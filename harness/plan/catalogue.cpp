@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "accel/algebra/expression.h"
 #include "accel/core/registry.h"
 #include "harness/baseline/baselines.h"
 
@@ -31,6 +32,11 @@ const std::vector<const TechniqueEntry*>& catalogue() {
 }
 
 TechniqueChoice choose_technique(std::string_view text) {
+  if (is_composition(text)) {
+    const Expression expression = parse_expression(text, catalogue());
+    const auto composed = std::make_shared<const TechniqueEntry>(compose(expression));
+    return {composed.get(), configuration(expression), std::string(text), {}, composed};
+  }
   const Spec spec = parse_spec(text);
   const TechniqueEntry& entry = find_technique(spec.name);
   if (!spec.size.empty() || !spec.form.empty())

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,10 +20,12 @@ struct TechniqueChoice {
   std::string spec;
   /// Ids of the scenes on which it is to run; empty for all.
   std::vector<std::string> scenes{};
+  /// Owns the entry where it is a composition.
+  std::shared_ptr<const TechniqueEntry> composed{};
 };
 
-/// The technique that `spec`, a name or name(key=value,...), asks for; throws InputError on an unknown name
-/// or key and on a value out of range.
+/// The technique that `spec`, a name, name(key=value,...) or an expression of the algebra (accel/algebra/expression.h),
+/// asks for; throws InputError on an unknown name or key and on a value out of range.
 TechniqueChoice choose_technique(std::string_view spec);
 
 }  // namespace rayshoot

@@ -210,26 +210,36 @@ std::size_t Geometry<Real>::bytes() const {
 
 template <class Real>
 Geometry<Real> Geometry<Real>::arranged(std::span<const std::uint32_t> order) const {
+  Geometry result = part(order, bounds_);
+  result.set_aside_ = set_aside_;
+  return result;
+}
+
+template <class Real>
+Geometry<Real> Geometry<Real>::part(std::span<const std::uint32_t> objects, const Box<Real>& bounds) const {
   Geometry result;
-  result.vertices_ = vertices_;
-  result.bounds_ = bounds_;
+  result.bounds_ = bounds;
   result.cone_sides_ = cone_sides_;
   result.intersector_ = intersector_;
   result.bounds_rule_ = bounds_rule_;
-  result.set_aside_ = set_aside_;
   result.mostly_triangles_ = mostly_triangles_;
-  result.references_.reserve(order.size());
-  result.scene_objects_.reserve(order.size());
-  result.triangles_.reserve(triangles_.size());
-  for (const std::uint32_t object : order) {
+  result.references_.reserve(objects.size());
+  result.scene_objects_.reserve(objects.size());
+  result.triangles_.reserve(std::min(objects.size(), triangles_.size()));
+  for (const std::uint32_t object : objects) {
     const std::uint32_t origin = scene_objects_[object];
     switch (kind(object)) {
       case ObjectKind::triangle:
         result.append(kind(object), result.triangles_, triangle(object), origin);
         break;
-      case ObjectKind::polygon:
-        result.append(kind(object), result.polygons_, polygon(object), origin);
+      case ObjectKind::polygon: {
+        Polygon<Real> polygon = this->polygon(object);
+        const std::span<const Vec3<Real>> vertices = polygon_vertices(object);
+        polygon.first_vertex = static_cast<std::uint32_t>(result.vertices_.size());
+        result.vertices_.insert(result.vertices_.end(), vertices.begin(), vertices.end());
+        result.append(kind(object), result.polygons_, polygon, origin);
         break;
+      }
       case ObjectKind::sphere:
         result.append(kind(object), result.spheres_, sphere(object), origin);
         break;

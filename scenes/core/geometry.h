@@ -109,6 +109,9 @@ class Geometry {
   /// The same objects in another order: object i of the result is object `order[i]` of this geometry. Objects
   /// of a kind lie in memory in that order. Groups, which are ranges of objects, are not kept.
   Geometry arranged(std::span<const std::uint32_t> order) const;
+  /// Some of the objects, numbered as in `objects`, as a scene that is divided within `bounds`: they may reach beyond.
+  /// Without groups and without a word on what was set aside.
+  Geometry part(std::span<const std::uint32_t> objects, const Box<Real>& bounds) const;
 
  private:
   static constexpr int kIndexBits = 30;

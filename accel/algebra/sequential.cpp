@@ -1,0 +1,262 @@
+// Sequential composition (Revelles & Ureña 1999, §5.1)
+//
+// Idea       A1|A2 takes the voxels of A1 and builds an A2 over the objects of each (equations 15 to 17). A ray walks through
+//            A1; each voxel that it meets hands it to the A2 inside. So a crowded corner of a scene gets a structure of its
+//            own: the teapot in the stadium.
+// Parameters until (8): a voxel with at most so many objects keeps its plain list, for a second structure would cost more
+//            than it saves; box: where the second structure stands. `fit`, the part of the voxel where its objects are,
+//            leaves out empty space and is the default; `voxel` is the whole voxel; `objects` reaches beyond it, but lets
+//            voxels with the same objects share one structure.
+// Cost       That of A1, and for each voxel on the ray that of its A2.
+// Weak       where A1 has few objects a voxel already, and where large objects fall in many voxels.
+
+#include "accel/algebra/sequential.h"
+
+#include <deque>
+#include <unordered_map>
+
+#include "accel/algebra/numbers.h"
+#include "scenes/core/digest.h"
+
+namespace rayshoot {
+
+namespace {
+
+/// Where the second part is built over the objects of a voxel.
+template <class Real>
+Box<Real> divided_box(const Geometry<Real>& geometry, const Voxel<Real>& voxel,
+                      std::span<const std::uint32_t> objects, SequentialConfig::Box rule) {
+  Box<Real> around;
+  for (const std::uint32_t object : objects) around.include(geometry.bounds(object));
+  const Box<Real> fit{max(around.lo, voxel.box.lo), min(around.hi, voxel.box.hi)};
+  if (rule == SequentialConfig::Box::objects || voxel.widened || fit.empty()) return around;
+  return rule == SequentialConfig::Box::voxel ? voxel.box : fit;
+}
+
+template <class Real>
+class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
+ public:
+  using typename SpatialIndex<Real>::ForVoxel;
+  using Key = typename Voxel<Real>::Key;
+
+  Sequential(const OptimizerInput<Real>& input, const BuildPart<Real>& first, const BuildPart<Real>& second,
+             const SequentialConfig& config)
+      : first_(first(input)), voxels_(first_->index()) {
+    if (!voxels_)
+      throw InputError("the first part of a sequential composition must be based on spatial indexing");
+    SubScenesByContent known;
+    const Numbers<Real> number(input);
+    std::vector<std::uint32_t> objects;
+    voxels_->for_each_voxel([&](const Voxel<Real>& voxel) {
+      place_of_[voxel.key] = static_cast<std::uint32_t>(places_.size());
+      Place& place = places_.emplace_back(
+          Place{voxel.key, voxel.box, voxel.widened, names_.size(), voxel.objects.size()});
+      names_.insert(names_.end(), voxel.objects.begin(), voxel.objects.end());
+      if (voxel.objects.size() <= config.until) return;
+      objects.resize(voxel.objects.size());
+      std::transform(voxel.objects.begin(), voxel.objects.end(), objects.begin(), number);
+      const Box<Real> box = divided_box(input.geometry, voxel, objects, config.box);
+      place.sub_scene = sub_scene_of(objects, box, input, second, known);
+    });
+  }
+
+  std::unique_ptr<EngineScratch> scratch() const override { return std::make_unique<Scratch>(*this); }
+
+  /// Walk through the voxels of the first part, and in each through the second part inside (equation 16).
+  bool visit(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
+             CandidateVisitor<Real>& visitor) const override {
+    const LevelCount inside = count.below(first_->levels());
+    const auto take_list = [&](const Place& place) {
+      inside.candidates(names(place));
+      return visitor(names(place));
+    };
+    const auto take_sub_scene = [&](const Optimizer<Real>& second, EngineScratch& own) {
+      return second.visit(ray, own, inside, visitor);
+    };
+    return visit_places(ray, scratch, count, visitor, take_list, take_sub_scene);
+  }
+
+  /// A1|A2 is based on spatial indexing where A2 is.
+  const SpatialIndex<Real>* index() const override {
+    const bool all = std::all_of(sub_scenes_.begin(), sub_scenes_.end(), [](const SubScene& sub_scene) {
+      return sub_scene.optimizer->index() != nullptr;
+    });
+    return all ? this : nullptr;
+  }
+
+  /// The voxels of the second parts, and those of the first that keep their lists.
+  void for_each_voxel(const ForVoxel& visit) const override {
+    for (const Place& place : places_)
+      if (!place.divided()) visit({place.key, place.box, names(place), place.widened});
+    for (const SubScene& sub_scene : sub_scenes_) sub_scene.optimizer->index()->for_each_voxel(visit);
+  }
+
+  bool visit_voxels(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
+                    VoxelVisitor<Real>& visitor) const override {
+    const auto take_list = [&](const Place& place) { return visitor(place.key); };
+    const auto take_sub_scene = [&](const Optimizer<Real>& second, EngineScratch& own) {
+      return second.index()->visit_voxels(ray, own, count.below(first_->levels()), visitor);
+    };
+    return visit_places(ray, scratch, count, visitor, take_list, take_sub_scene);
+  }
+
+  StructureStats structure() const override {
+    StructureStats stats = first_->structure();
+    std::uint64_t deepest = 0;
+    for (const SubScene& sub_scene : sub_scenes_) {
+      const StructureStats inside = sub_scene.optimizer->structure();
+      stats.nodes += inside.nodes, stats.leaves += inside.leaves, stats.empty_leaves += inside.empty_leaves;
+      stats.references += inside.references, stats.bytes += inside.bytes + sub_scene.geometry.bytes();
+      deepest = std::max(deepest, inside.max_depth);
+    }
+    stats.max_depth += deepest;
+    stats.bytes += places_.size() * (sizeof(Place) + 2 * sizeof(Key)) + names_.size() * sizeof(names_[0]);
+    const auto divided =
+        std::count_if(places_.begin(), places_.end(), [](const Place& place) { return place.divided(); });
+    stats.figures = {{"voxels", static_cast<double>(places_.size())},
+                     {"divided_voxels", static_cast<double>(divided)},
+                     {"sub_scenes", static_cast<double>(sub_scenes_.size())}};
+    return stats;
+  }
+
+  std::size_t levels() const override {
+    std::size_t deepest = 1;
+    for (const SubScene& sub_scene : sub_scenes_) deepest = std::max(deepest, sub_scene.optimizer->levels());
+    return first_->levels() + deepest;
+  }
+
+ private:
+  /// What stands in a voxel of the first part.
+  struct Place {
+    Key key;
+    Box<Real> box;
+    bool widened;
+    /// The names of its objects.
+    std::size_t first, count;
+    std::uint32_t sub_scene = kNone;
+
+    bool divided() const { return sub_scene != kNone; }
+  };
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  struct SubScene {
+    std::vector<std::uint32_t> objects;
+    Geometry<Real> geometry;
+    std::unique_ptr<Optimizer<Real>> optimizer;
+  };
+  using SubScenesByContent = std::unordered_multimap<std::uint64_t, std::uint32_t>;
+
+  struct Scratch final : EngineScratch {
+    explicit Scratch(const Sequential& composition)
+        : first(composition.first_->scratch()),
+          inside(composition.sub_scenes_.size()),
+          met(composition.shares_ ? static_cast<std::uint32_t>(inside.size()) : 0) {}
+
+    std::unique_ptr<EngineScratch> first;
+    /// Of each sub-scene that a ray has met yet.
+    std::vector<std::unique_ptr<EngineScratch>> inside;
+    /// Those that the ray has met, where several voxels share one.
+    Mailbox met;
+  };
+
+  std::span<const std::uint32_t> names(const Place& place) const {
+    return {names_.data() + place.first, place.count};
+  }
+
+  /// The sub-scene of these objects within that box: one that is known, or a new one.
+  std::uint32_t sub_scene_of(std::span<const std::uint32_t> objects, const Box<Real>& box,
+                             const OptimizerInput<Real>& input, const BuildPart<Real>& second,
+                             SubScenesByContent& known) {
+    Digest digest;
+    digest.add(box), digest.add_all(objects);
+    const auto [begin, end] = known.equal_range(digest.value());
+    for (auto same = begin; same != end; ++same) {
+      const SubScene& other = sub_scenes_[same->second];
+      if (!(other.geometry.bounds() == box) ||
+          !std::equal(objects.begin(), objects.end(), other.objects.begin(), other.objects.end()))
+        continue;
+      shares_ = true;
+      return same->second;
+    }
+    const auto number = static_cast<std::uint32_t>(sub_scenes_.size());
+    known.emplace(digest.value(), number);
+    SubScene& made = sub_scenes_.emplace_back(
+        SubScene{{objects.begin(), objects.end()}, input.geometry.part(objects, box), nullptr});
+    std::vector<std::uint32_t> names;
+    for (const std::uint32_t object : objects) names.push_back(input.name(object));
+    made.optimizer = second({made.geometry, names, input.sample});
+    return number;
+  }
+
+  /// Hand each voxel on the ray to `take_list` or, where it is divided, its sub-scene to `take_sub_scene`: once a ray.
+  template <class Visitor, class TakeList, class TakeSubScene>
+  bool visit_places(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count, const Visitor& asks,
+                    const TakeList& take_list, const TakeSubScene& take_sub_scene) const {
+    auto& own = static_cast<Scratch&>(scratch);
+    const bool once = own.met.in_use();
+    if (once) own.met.begin_ray();
+    const auto take = [&](Key key) {
+      const Place& place = places_[place_of_.find(key)->second];
+      count.candidates(names(place));
+      if (!place.divided()) return take_list(place);
+      if (once && !own.met.first_visit(place.sub_scene)) return false;
+      const Optimizer<Real>& second = *sub_scenes_[place.sub_scene].optimizer;
+      std::unique_ptr<EngineScratch>& its = own.inside[place.sub_scene];
+      if (!its) its = second.scratch();
+      return take_sub_scene(second, *its);
+    };
+    struct Voxels final : VoxelVisitor<Real> {
+      Voxels(const decltype(take)& take, const Visitor& asks) : take_(take), asks_(asks) {}
+      bool operator()(Key key) override { return take_(key); }
+      Real reach() const override { return asks_.reach(); }
+
+      const decltype(take)& take_;
+      const Visitor& asks_;
+    } voxels(take, asks);
+    return voxels_->visit_voxels(ray, *own.first, count, voxels);
+  }
+
+  std::unique_ptr<Optimizer<Real>> first_;
+  const SpatialIndex<Real>* voxels_;
+  std::unordered_map<Key, std::uint32_t> place_of_;
+  std::vector<Place> places_;
+  std::vector<std::uint32_t> names_;
+  /// Where they stand they stay: optimizers refer to their geometries.
+  std::deque<SubScene> sub_scenes_;
+  bool shares_ = false;
+};
+
+}  // namespace
+
+std::vector<Parameter> sequential_parameters(const SequentialConfig& defaults) {
+  return {
+      integer_parameter("until", defaults.until, 0, 1e9,
+                        "a voxel with at most so many objects keeps its plain list"),
+      choice_parameter(
+          "box", defaults.box == SequentialConfig::Box::fit ? "fit" : "voxel", {"fit", "voxel", "objects"},
+          "where the objects of a voxel are divided: in the voxel where they are, in all of it, or "
+          "wherever they are")};
+}
+
+SequentialConfig sequential_config(const Arguments& arguments) {
+  using Box = SequentialConfig::Box;
+  const std::string& box = arguments.text("box");
+  return {.until = static_cast<std::uint32_t>(arguments.integer("until")),
+          .box = box == "fit"     ? Box::fit
+                 : box == "voxel" ? Box::voxel
+                                  : Box::objects};
+}
+
+template <class Real>
+std::unique_ptr<Optimizer<Real>> sequential(const OptimizerInput<Real>& input, const BuildPart<Real>& first,
+                                            const BuildPart<Real>& second, const SequentialConfig& config) {
+  return std::make_unique<Sequential<Real>>(input, first, second, config);
+}
+
+template std::unique_ptr<Optimizer<float>> sequential(const OptimizerInput<float>&, const BuildPart<float>&,
+                                                      const BuildPart<float>&, const SequentialConfig&);
+template std::unique_ptr<Optimizer<double>> sequential(const OptimizerInput<double>&,
+                                                       const BuildPart<double>&, const BuildPart<double>&,
+                                                       const SequentialConfig&);
+
+}  // namespace rayshoot

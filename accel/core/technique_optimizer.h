@@ -1,0 +1,122 @@
+#pragma once
+
+#include <utility>
+
+#include "accel/core/optimizer.h"
+
+namespace rayshoot {
+
+/// A technique whose candidates are the objects of the cells on the ray.
+template <class A>
+concept HasCells = requires(const A a, typename A::Scratch scratch) {
+  a.cells(scratch);
+  a.for_each_cell([](const Box<typename A::Scalar>&, typename Voxel<typename A::Scalar>::Key,
+                     std::span<const std::uint32_t>) {});
+};
+
+/// A technique as part of a composition.
+template <Technique A>
+class TechniqueOptimizer : public Optimizer<typename A::Scalar> {
+ public:
+  using Real = typename A::Scalar;
+
+  TechniqueOptimizer(const OptimizerInput<Real>& input, const Arguments& arguments)
+      : technique_(A::build({input.geometry, input.sample}, A::configure(arguments))) {
+    names_.reserve(input.geometry.size());
+    for (std::uint32_t position = 0; position < input.geometry.size(); ++position)
+      names_.push_back(input.name(object_at(position)));
+  }
+
+  std::unique_ptr<EngineScratch> scratch() const override {
+    return std::make_unique<Scratch>(technique_.scratch());
+  }
+
+  bool visit(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
+             CandidateVisitor<Real>& visitor) const override {
+    struct Leaf {
+      const std::uint32_t* names;
+      CandidateVisitor<Real>& visitor;
+      LevelCount count;
+      bool ended = false;
+
+      bool operator()(std::uint32_t position) {
+        count.candidates({names + position, 1});
+        return ended = visitor({names + position, 1});
+      }
+      Real reach() const { return visitor.reach(); }
+    } leaf{names_.data(), visitor, count};
+    if (count.counts())
+      technique_.visit(ray, own(scratch), count.counter(), leaf);
+    else
+      technique_.visit(ray, own(scratch), NoCount{}, leaf);
+    return leaf.ended;
+  }
+
+  StructureStats structure() const override { return technique_.structure(); }
+  std::size_t levels() const override { return 1; }
+
+ protected:
+  struct Scratch final : EngineScratch {
+    explicit Scratch(typename A::Scratch own) : technique(std::move(own)) {}
+    typename A::Scratch technique;
+  };
+  static typename A::Scratch& own(EngineScratch& scratch) { return static_cast<Scratch&>(scratch).technique; }
+
+  A technique_;
+  /// What the object at each position is called.
+  std::vector<std::uint32_t> names_;
+
+ private:
+  std::uint32_t object_at(std::uint32_t position) const {
+    if constexpr (OrdersObjects<A>)
+      return technique_.order()[position];
+    else
+      return position;
+  }
+};
+
+/// A technique based on spatial indexing as part of a composition.
+template <Technique A>
+requires HasCells<A>
+class TechniqueIndex final : public TechniqueOptimizer<A>, public SpatialIndex<typename A::Scalar> {
+ public:
+  using Real = typename A::Scalar;
+  using typename SpatialIndex<Real>::ForVoxel;
+  using TechniqueOptimizer<A>::TechniqueOptimizer;
+
+  const SpatialIndex<Real>* index() const override { return this; }
+
+  void for_each_voxel(const ForVoxel& visit) const override {
+    std::vector<std::uint32_t> objects;
+    bool widened = false;
+    if constexpr (requires { this->technique_.widens_cells(); }) widened = this->technique_.widens_cells();
+    this->technique_.for_each_cell(
+        [&](const Box<Real>& box, typename Voxel<Real>::Key key, std::span<const std::uint32_t> positions) {
+          objects.clear();
+          for (const std::uint32_t position : positions) objects.push_back(this->names_[position]);
+          visit({key, box, objects, widened});
+        });
+  }
+
+  bool visit_voxels(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
+                    VoxelVisitor<Real>& visitor) const override {
+    return count.counts() ? visit_cells(ray, this->own(scratch), count.counter(), visitor)
+                          : visit_cells(ray, this->own(scratch), NoCount{}, visitor);
+  }
+
+ private:
+  template <class Counter>
+  bool visit_cells(const Ray<Real>& ray, typename A::Scratch& scratch, Counter count,
+                   VoxelVisitor<Real>& visitor) const {
+    bool ended = false;
+    this->technique_.cells(scratch).visit_cells(
+        ray, count, [&] { return visitor.reach(); },
+        [&](std::span<const std::uint32_t> objects) {
+          count.cell(objects.empty());
+          return ended = !objects.empty() && visitor(objects.data());
+        });
+    return ended;
+  }
+};
+
+}  // namespace rayshoot

@@ -1,0 +1,125 @@
+// What compositions are, beyond giving the answers of exhaustive search (conformance_test.cpp): the candidates that the
+// equations of Revelles and Ureña say.
+#include <gtest/gtest.h>
+
+#include "accel/tests/built_engine.h"
+#include "accel/tests/conformance.h"
+#include "accel/tests/expressions.h"
+#include "scenes/io/load_scene.h"
+
+namespace rayshoot {
+namespace {
+
+using Objects = std::vector<std::uint32_t>;
+
+class Compositions : public ::testing::Test {
+ protected:
+  std::unique_ptr<Engine<double>> build(const std::string& text) const {
+    const Expression expression = parsed(text);
+    const Arguments none;
+    return compose(expression).build<double>({geometry_, none});
+  }
+
+  std::vector<Objects> strict(const Engine<double>& engine) const {
+    const auto scratch = engine.scratch();
+    std::vector<Objects> all;
+    for (const Ray<double>& ray : rays_) all.push_back(engine.candidates(Query::strict, ray, *scratch));
+    return all;
+  }
+  std::vector<Objects> strict(const std::string& text) const { return strict(*build(text)); }
+
+  Work work(const std::string& text, Query query) const { return counted(*build(text), query, rays_).work; }
+
+  Geometry<double> geometry_{soup_scene(600)};
+  std::vector<Ray<double>> rays_ = nasty::rays(geometry_, 1, 400);
+};
+
+/// §5.3: an octree is a grid of 2×2×2 voxels composed with itself.
+TEST_F(Compositions, RecursiveGridOfEightVoxelsHasTheCandidatesOfTheOctree) {
+  for (const auto& [until, depth] : {std::pair{2, 3}, {8, 4}, {20, 5}}) {
+    const std::string recursive =
+        fmt::format("recursive(uniform_grid(resolution=2x2x2),until={},max_depth={})", until, depth);
+    const Given octree{{"max_depth", std::to_string(depth)}, {"max_objects", std::to_string(until)}};
+    EXPECT_EQ(strict(recursive), strict(*rayshoot::build("octree_revelles", geometry_, octree))) << recursive;
+    EXPECT_NE(strict(recursive), strict("uniform_grid(resolution=2x2x2)|exhaustive"));
+  }
+}
+
+/// §5.3: a binary tree is one of two voxels along each axis in turn.
+TEST_F(Compositions, RecursiveGridsOfTwoVoxelsHaveTheCandidatesOfTheBinaryTree) {
+  const std::string two_along_each =
+      "sequential(sequential(uniform_grid(resolution=2x1x1),uniform_grid(resolution=1x2x1),until=30,box="
+      "voxel),"
+      "uniform_grid(resolution=1x1x2),until=30,box=voxel)";
+  const Given tree{{"max_depth", "6"}, {"max_objects", "30"}};
+  EXPECT_EQ(strict("recursive(" + two_along_each + ",until=30,max_depth=2)"),
+            strict(*rayshoot::build("bsp_kaplan", geometry_, tree)));
+}
+
+TEST_F(Compositions, BelowTheThresholdAVoxelKeepsItsList) {
+  const auto listed = build("sequential(uniform_grid,bvh_sah,until=1000000)");
+  EXPECT_EQ(listed->structure().figures.at("sub_scenes"), 0);
+  EXPECT_EQ(strict(*listed), strict(*rayshoot::build("uniform_grid", geometry_)));
+  const auto divided = build("sequential(uniform_grid,bvh_sah,until=3)");
+  EXPECT_GT(divided->structure().figures.at("sub_scenes"), 0);
+  EXPECT_LT(divided->structure().figures.at("divided_voxels"), divided->structure().figures.at("voxels"));
+}
+
+TEST(EqualSubScenes, AreBuiltOnce) {
+  // Twenty long needles side by side: all voxels of a row list the same ones.
+  SceneBuilder builder;
+  for (int i = 0; i < 20; ++i) {
+    const double y = 0.01 * i;
+    builder.triangle({0, y, 0}, {100, y, 0}, {100, y + 0.001, 1});
+  }
+  const Geometry<double> geometry(std::move(builder).finish());
+  const Arguments none;
+  const auto figures = [&](const char* text) {
+    return compose(parsed(text)).build<double>({geometry, none})->structure().figures;
+  };
+  const auto shared = figures("sequential(uniform_grid(resolution=50x1x1),bvh_sah,box=objects)");
+  EXPECT_EQ(shared.at("divided_voxels"), 50);
+  EXPECT_EQ(shared.at("sub_scenes"), 1);
+  EXPECT_EQ(figures("uniform_grid(resolution=50x1x1)|bvh_sah").at("sub_scenes"), 50);
+}
+
+TEST_F(Compositions, WorkIsCountedLevelByLevel) {
+  const Work composed = work("uniform_grid(resolution=4x4x4)|bvh_sah", Query::strict);
+  const Work first =
+      counted(*rayshoot::build("uniform_grid", geometry_, {{"resolution", "4x4x4"}}), Query::strict, rays_)
+          .work;
+  EXPECT_EQ(composed.events[0], first.steps);
+  EXPECT_EQ(composed.events[1], first.distinct_objects);
+  EXPECT_EQ(composed.events[3], composed.distinct_objects);
+  EXPECT_LT(composed.events[3], composed.events[1]);
+  EXPECT_EQ(composed.steps, composed.events[0] + composed.events[2]);
+  EXPECT_GT(composed.volume_tests, 0u);
+}
+
+/// §5.2: the parallel composition never has more candidates than either of its parts, and here it has fewer.
+TEST_F(Compositions, ParallelCompositionHasTheCandidatesOfBoth) {
+  for (const auto& [a, b] :
+       {std::pair{"uniform_grid", "octree_revelles"}, {"bvh_kay_kajiya", "bsp_jansen"}}) {
+    const auto of_a = strict(*rayshoot::build(a, geometry_)), of_b = strict(*rayshoot::build(b, geometry_));
+    const auto of_both = strict(fmt::format("{}||{}", a, b));
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      Objects both;
+      std::set_intersection(of_a[i].begin(), of_a[i].end(), of_b[i].begin(), of_b[i].end(),
+                            std::back_inserter(both));
+      ASSERT_EQ(of_both[i], both) << conformance::describe(rays_[i]);
+    }
+    EXPECT_NE(of_both, of_a);
+    EXPECT_NE(of_both, of_b);
+  }
+}
+
+/// The sets are not made whole: the search ends with the stretch in which the hit is.
+TEST_F(Compositions, ParallelCompositionStopsAtTheHit) {
+  const Work closest = work("uniform_grid||octree_revelles", Query::closest),
+             strict = work("uniform_grid||octree_revelles", Query::strict);
+  for (const std::size_t level : {0, 1})
+    EXPECT_LT(closest.events[2 * level + 1] * 10, strict.events[2 * level + 1] * 9);
+}
+
+}  // namespace
+}  // namespace rayshoot
