@@ -1,8 +1,10 @@
 #include "accel/algebra/composed.h"
+#include "accel/algebra/define_composition.h"
 #include "accel/algebra/expression.h"
 #include "accel/algebra/parallel.h"
 #include "accel/algebra/recursive.h"
 #include "accel/core/define_technique.h"
+#include "accel/core/registry.h"
 
 namespace rayshoot {
 
@@ -25,6 +27,23 @@ std::unique_ptr<Optimizer<Real>> build(const Expression& expression, const Optim
       return recursive(input, part(0), recursive_config(expression.arguments));
   }
   return nullptr;
+}
+
+template <class Real>
+OptimizerInput<Real> scene_of(const EngineInput<Real>& input) {
+  return {input.geometry, {}, input.sample};
+}
+
+/// The entry's builders, where `optimizer` builds what is composed.
+template <class BuildComposed>
+void set_builders(TechniqueEntry& entry, const BuildComposed& optimizer) {
+  const auto engine =
+      [optimizer]<class Real>(const EngineInput<Real>& input) -> std::unique_ptr<Engine<Real>> {
+    return std::make_unique<TechniqueEngine<Composed<Real>>>(
+        Composed<Real>(optimizer(scene_of(input), input.arguments), input.geometry.size()), input.geometry);
+  };
+  entry.build_float = engine, entry.build_double = engine;
+  entry.optimizer_float = optimizer, entry.optimizer_double = optimizer;
 }
 
 /// The parameters of all parts with their values, named by the part's place in the expression: "2.density".
@@ -54,27 +73,29 @@ Arguments configuration(const Expression& expression) {
 }
 
 TechniqueEntry compose(const Expression& expression) {
-  TechniqueEntry entry;
-  entry.info = {.id = expression.text(),
-                .title = "Composition",
-                .family = "algebra",
-                .survey_section = "12",
-                .paper = "Revelles & Ureña",
-                .parameters = {},
-                .events = Composed<float>::events(expression.levels()),
-                .max_practical_objects = max_practical_objects(expression)};
-  const auto engine =
-      [expression]<class Real>(const EngineInput<Real>& input) -> std::unique_ptr<Engine<Real>> {
-    const OptimizerInput<Real> scene{input.geometry, {}, input.sample};
-    return std::make_unique<TechniqueEngine<Composed<Real>>>(
-        Composed<Real>(build(expression, scene), input.geometry.size()), input.geometry);
-  };
-  const auto optimizer = [expression]<class Real>(const OptimizerInput<Real>& input, const Arguments&) {
+  TechniqueEntry entry{.info = {.id = expression.text(),
+                                .title = "Composition",
+                                .family = "algebra",
+                                .survey_section = "12",
+                                .paper = "Revelles & Ureña",
+                                .parameters = {},
+                                .events = Composed<float>::events(expression.levels()),
+                                .max_practical_objects = max_practical_objects(expression)},
+                       .indexes_space = expression.indexes_space()};
+  set_builders(entry, [expression]<class Real>(const OptimizerInput<Real>& input, const Arguments&) {
     return build(expression, input);
-  };
-  entry.build_float = engine, entry.build_double = engine;
-  entry.optimizer_float = optimizer, entry.optimizer_double = optimizer;
-  entry.indexes_space = expression.indexes_space();
+  });
+  return entry;
+}
+
+TechniqueEntry define_composition(TechniqueInfo info, std::size_t levels,
+                                  const std::function<std::string(const Arguments&)>& expression) {
+  info.events = Composed<float>::events(levels);
+  TechniqueEntry entry{.info = std::move(info)};
+  set_builders(entry,
+               [expression]<class Real>(const OptimizerInput<Real>& input, const Arguments& arguments) {
+                 return build(parse_expression(expression(arguments), technique_entries()), input);
+               });
   return entry;
 }
 

@@ -210,17 +210,19 @@ class Parser {
 
 std::string call_text(const std::string& name, const Expression& expression) {
   std::string inside;
-  const auto add = [&](const std::string& item) { inside += (inside.empty() ? "" : ",") + item; };
+  const auto add = [&](const std::string& item) {
+    inside += fmt::format("{}{}", inside.empty() ? "" : ",", item);
+  };
   for (const Expression& part : expression.parts) add(part.text());
-  for (const auto& [key, value] : expression.given) add(key + "=" + value);
-  return inside.empty() ? name : name + "(" + inside + ")";
+  for (const auto& [key, value] : expression.given) add(fmt::format("{}={}", key, value));
+  return inside.empty() ? name : fmt::format("{}({})", name, inside);
 }
 
 /// A part of an operator that binds as tightly as `binding`: 2 of |, 1 of ||.
 std::string operand_text(const Expression& part, int binding, bool right) {
   const bool plain = part.given.empty();
   const int own = part.kind == Kind::sequential && plain ? 2 : part.kind == Kind::parallel && plain ? 1 : 3;
-  return own < binding || (own == binding && right) ? "(" + part.text() + ")" : part.text();
+  return own < binding || (own == binding && right) ? fmt::format("({})", part.text()) : part.text();
 }
 
 }  // namespace

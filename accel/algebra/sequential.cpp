@@ -48,7 +48,8 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
     const Numbers<Real> number(input);
     std::vector<std::uint32_t> objects;
     voxels_->for_each_voxel([&](const Voxel<Real>& voxel) {
-      place_of_[voxel.key] = static_cast<std::uint32_t>(places_.size());
+      // A voxel that several ways lead to is one all the same.
+      if (!place_of_.emplace(voxel.key, static_cast<std::uint32_t>(places_.size())).second) return;
       Place& place = places_.emplace_back(
           Place{voxel.key, voxel.box, voxel.widened, names_.size(), voxel.objects.size()});
       names_.insert(names_.end(), voxel.objects.begin(), voxel.objects.end());
@@ -77,18 +78,18 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
   }
 
   /// A1|A2 is based on spatial indexing where A2 is.
-  const SpatialIndex<Real>* index() const override {
-    const bool all = std::all_of(sub_scenes_.begin(), sub_scenes_.end(), [](const SubScene& sub_scene) {
-      return sub_scene.optimizer->index() != nullptr;
-    });
-    return all ? this : nullptr;
-  }
+  const SpatialIndex<Real>* index() const override { return indexes_space_ ? this : nullptr; }
 
   /// The voxels of the second parts, and those of the first that keep their lists.
   void for_each_voxel(const ForVoxel& visit) const override {
     for (const Place& place : places_)
       if (!place.divided()) visit({place.key, place.box, names(place), place.widened});
-    for (const SubScene& sub_scene : sub_scenes_) sub_scene.optimizer->index()->for_each_voxel(visit);
+    for (const Place& place : places_)
+      if (place.divided())
+        sub_scenes_[place.sub_scene].optimizer->index()->for_each_voxel([&](Voxel<Real> inside) {
+          inside.around.push_back(place.box);
+          visit(inside);
+        });
   }
 
   bool visit_voxels(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
@@ -119,11 +120,7 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
     return stats;
   }
 
-  std::size_t levels() const override {
-    std::size_t deepest = 1;
-    for (const SubScene& sub_scene : sub_scenes_) deepest = std::max(deepest, sub_scene.optimizer->levels());
-    return first_->levels() + deepest;
-  }
+  std::size_t levels() const override { return first_->levels() + levels_inside_; }
 
  private:
   /// What stands in a voxel of the first part.
@@ -185,6 +182,8 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
     std::vector<std::uint32_t> names;
     for (const std::uint32_t object : objects) names.push_back(input.name(object));
     made.optimizer = second({made.geometry, names, input.sample});
+    indexes_space_ &= made.optimizer->index() != nullptr;
+    levels_inside_ = std::max(levels_inside_, made.optimizer->levels());
     return number;
   }
 
@@ -224,6 +223,9 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
   /// Where they stand they stay: optimizers refer to their geometries.
   std::deque<SubScene> sub_scenes_;
   bool shares_ = false;
+  /// Of all second parts.
+  bool indexes_space_ = true;
+  std::size_t levels_inside_ = 1;
 };
 
 }  // namespace

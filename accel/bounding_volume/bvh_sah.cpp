@@ -14,6 +14,8 @@
 // Cost       equation (3), exactly, for uniformly distributed rays without occlusion.
 // Weak       long thin objects whose boxes are mostly void; very many objects per box (hair).
 
+#include <numeric>
+
 #include "accel/core/define_technique.h"
 #include "accel/parts/pair_walk.h"
 #include "accel/parts/sah_build.h"

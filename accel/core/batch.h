@@ -1,6 +1,5 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -26,9 +25,8 @@ class ThreadScratch {
   tbb::enumerable_thread_specific<std::unique_ptr<EngineScratch>> scratch_;
 };
 
-/// Call `body(first, last)` for ranges that cover [0, count), on `threads` threads; on the calling thread
-/// alone, without any scheduler, for one thread. What `body` computes must not depend on how the range is
-/// cut.
+/// Call `body(first, last)` for batches that cover [0, count), the same for any number of threads; on the calling thread
+/// alone, without any scheduler, for one thread.
 template <class Body>
 void for_batches(std::size_t count, int threads, const Body& body) {
   if (threads == 1) {
@@ -39,9 +37,9 @@ void for_batches(std::size_t count, int threads, const Body& body) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   tbb::task_arena(threads).execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, kRaysPerBatch),
-        [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
+    tbb::parallel_for(std::size_t{0}, (count + kRaysPerBatch - 1) / kRaysPerBatch, [&](std::size_t batch) {
+      body(batch * kRaysPerBatch, std::min(count, (batch + 1) * kRaysPerBatch));
+    });
   });
 }
 

@@ -53,12 +53,16 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
                     EngineScratch& scratch) const override {
     CountedWork sum;
     auto& own = static_cast<Scratch&>(scratch);
+    const auto square = [](double n) { return n * n; };
+    double neighbour = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       Work work;
       hits[i] = counted_query(query, rays[i], own, work);
       work.distinct_objects = own.make_distinct(geometry_->size());
-      const auto square = [](std::uint64_t n) { return static_cast<double>(n) * static_cast<double>(n); };
-      sum += {work, square(work.distinct_objects), square(work.object_tests), square(work.volume_tests)};
+      const auto distinct = static_cast<double>(work.distinct_objects);
+      sum += {work, square(distinct), i % 2 == 0 ? 0 : square(distinct - neighbour),
+              square(static_cast<double>(work.object_tests)), square(static_cast<double>(work.volume_tests))};
+      neighbour = distinct;
     }
     return sum;
   }

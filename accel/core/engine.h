@@ -14,7 +14,9 @@ enum class Query { closest, any, strict };
 /// (3).
 struct CountedWork {
   Work total;
-  double distinct_squares = 0;     ///< sum over rays of (distinct candidates)^2
+  double distinct_squares = 0;  ///< sum over rays of (distinct candidates)^2
+  /// Sum over pairs of neighbours of (difference of their distinct candidates)^2: the rays 0 and 1 of a batch, 2 and 3 ...
+  double distinct_differences = 0;
   double object_test_squares = 0;  ///< sum over rays of (object tests)^2
   double volume_test_squares = 0;  ///< sum over rays of (volume tests)^2
 

@@ -91,6 +91,8 @@ struct Voxel {
   std::span<const std::uint32_t> objects;
   /// Rays from far away are shown it where they pass it by, and hits outside of it count (parts/surface_margin.h).
   bool widened = false;
+  /// In a composition, the voxels around it: a ray is shown it only where it has met them all. They may be smaller than it.
+  std::vector<Box<Real>> around{};
 };
 
 /// Who asks a spatial index for the voxels on a ray.

@@ -4,7 +4,7 @@ namespace rayshoot {
 
 CountedWork& CountedWork::operator+=(const CountedWork& other) {
   total += other.total;
-  distinct_squares += other.distinct_squares;
+  distinct_squares += other.distinct_squares, distinct_differences += other.distinct_differences;
   object_test_squares += other.object_test_squares;
   volume_test_squares += other.volume_test_squares;
   return *this;

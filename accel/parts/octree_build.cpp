@@ -25,9 +25,14 @@ std::vector<Parameter> octree_parameters() {
 }
 
 OctreeLimits octree_limits(const Arguments& arguments) {
+  return octree_limits(arguments,
+                       arguments.text("assignment") == "box" ? Assignment::box : Assignment::surface);
+}
+
+OctreeLimits octree_limits(const Arguments& arguments, Assignment assignment) {
   return {.max_depth = static_cast<int>(arguments.integer("max_depth")),
           .max_objects = static_cast<std::uint32_t>(arguments.integer("max_objects")),
-          .assignment = arguments.text("assignment") == "box" ? Assignment::box : Assignment::surface,
+          .assignment = assignment,
           .split = arguments.text("split") == "cost" ? OctreeSplit::cost : OctreeSplit::centre,
           .separating = arguments.boolean("separating")};
 }

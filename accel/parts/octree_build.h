@@ -35,6 +35,8 @@ inline constexpr std::uint64_t kSpareReferences = 1u << 24;
 
 std::vector<Parameter> octree_parameters();
 OctreeLimits octree_limits(const Arguments& arguments);
+/// Where there is no parameter `assignment`.
+OctreeLimits octree_limits(const Arguments& arguments, Assignment assignment);
 /// Depth at which the cells of a surface cut into that many objects are about as large as the objects, and
 /// two levels more for scenes that are not even.
 int suitable_depth(std::uint32_t objects);

@@ -93,6 +93,7 @@ TEST_P(Conformance, ThreadsChangeNothing) {
     const CountedWork work = count_work<float>(*engine, Query::closest, rays, counted, scratch, threads);
     EXPECT_EQ(work.total, work_alone.total);
     EXPECT_EQ(work.distinct_squares, work_alone.distinct_squares);
+    EXPECT_EQ(work.distinct_differences, work_alone.distinct_differences);
   }
 }
 

@@ -25,6 +25,7 @@ struct Options {
   std::optional<int> resolution, threads;
   std::optional<std::string> rules;
   std::optional<std::uint64_t> seed, graded_rays;
+  std::optional<double> target_m_error;
   bool counts_only = false;
   std::string output;
 };
@@ -47,6 +48,7 @@ Suite suite_of(const Options& options) {
   if (options.resolution) suite.resolution = options.resolution;
   if (options.rules) suite.rules = options.rules;
   suite.seed = options.seed.value_or(suite.seed);
+  suite.target_m_error = options.target_m_error.value_or(suite.target_m_error);
   suite.graded_rays = options.graded_rays.value_or(suite.graded_rays);
   suite.threads = options.threads.value_or(suite.threads);
   suite.counts_only |= options.counts_only;
@@ -97,6 +99,12 @@ void add_run(CLI::App& program, const std::string& command_line, int& status) {
   command->add_option(
       "--graded", options->graded_rays,
       "Nearest hits of every ray set that exact arithmetic grades: adds error against run time");
+  command
+      ->add_option(
+          "--target-m-error", options->target_m_error,
+          "Take as many rays as it needs until half the 95 % interval of every technique's M is at most so "
+          "large a part of M: 0.01 for one per cent")
+      ->check(CLI::Range(1e-4, 1.0));
   command->add_option("--seed", options->seed, "Seed of everything random");
   command->add_option("--threads", options->threads, "Threads that trace while timed")
       ->check(CLI::Range(1, 1024));

@@ -19,6 +19,11 @@ template <class Real>
 Counts count(const Engine<Real>& engine, const Batch<Real>& batch, std::uint32_t objects, double strict_tests,
              std::uint64_t seed, int threads);
 
+/// Half the 95 % interval of M over M; zero where no ray has a candidate.
+template <class Real>
+double relative_m_error(const Engine<Real>& engine, const Batch<Real>& batch, std::uint32_t objects,
+                        int threads);
+
 /// Equation (3) per ray of the batch; absent where the technique does not predict.
 template <class Real>
 std::optional<report::Predicted> predict(const Engine<Real>& engine, const Batch<Real>& batch);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <thread>
 
 #include "harness/measure/building.h"
+#include "harness/measure/enough_rays.h"
 #include "harness/measure/environment.h"
 #include "harness/measure/group.h"
 #include "harness/verify/scene_tracer.h"
@@ -90,8 +92,13 @@ class Runner {
       observer_.doing(fmt::format("{}: shooting {}", scene.id, spec.id));
       PreparedRays& rays = prepared.emplace_back(PreparedRays{&spec, {.id = spec.id}});
       if (!why_left_out(spec, scene).empty()) continue;
-      const auto tracer = tracers.try_emplace(spec.cone_sides(), scene, spec.cone_sides(), threads_).first;
-      rays.set = make_rays(spec, scene, tracer->second.tracer(), plan_.suite.seed);
+      const Tracer& tracer =
+          tracers.try_emplace(spec.cone_sides(), scene, spec.cone_sides(), threads_).first->second.tracer();
+      if (plan_.suite.target_m_error > 0) {
+        observer_.doing(fmt::format("{}: how many rays of {} M needs", scene.id, spec.distribution->id));
+        rays.spec = &enough_.emplace_back(enough_rays(plan_, spec, scene, tracer, threads_, stopped_));
+      }
+      rays.set = make_rays(*rays.spec, scene, tracer, plan_.suite.seed);
       report_.ray_sets.push_back(record(rays.set, scene.id));
     }
     return prepared;
@@ -128,6 +135,8 @@ class Runner {
   RunObserver& observer_;
   const std::function<bool()>& stopped_;
   int threads_ = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  /// Rays in the numbers that M needs; they stay where they are.
+  std::deque<RaySpec> enough_;
 };
 
 }  // namespace

@@ -128,6 +128,7 @@ Readers suite_readers(Suite& suite) {
           {"trace_seconds", number(suite.trace_seconds, 0, any)},
           {"check_tests", number(suite.check_tests, 0, any)},
           {"graded_rays", number(suite.graded_rays, 0, any)},
+          {"target_m_error", number(suite.target_m_error, 1e-4, 1)},
           {"strict_tests", number(suite.strict_tests, 0, any)}};
 }
 

@@ -50,6 +50,9 @@ struct Suite {
   double check_tests = 5e8;
   /// Nearest hits of every ray set that exact arithmetic grades, technique by technique.
   std::uint64_t graded_rays = 0;
+  /// Take as many rays as it needs until half the 95 % interval of every technique's M is so small a part of M; 0 for the
+  /// number of rays that was asked for.
+  double target_m_error = 0;
   /// Ray-object tests to spend on counting the work of a strict optimizer.
   double strict_tests = 1e8;
 };

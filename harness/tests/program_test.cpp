@@ -22,6 +22,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
+using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 using ::testing::UnorderedElementsAreArray;
 
@@ -165,9 +166,39 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RenderedScene,
 
 /// A run of which the first cell is done at once, and the last long after.
 const std::vector<std::string> kLongRun{
-    "run",     "--scene",     "balls:1",         "--scene", "balls:4",     "--scene",
+    "run",     "--scene",     "balls:1",         "--scene", "balls:4",    "--scene",
     "gears:5", "--scene",     "tree:12",         "--rays",  "whitted@64", "--technique",
     "bvh_sah", "--technique", "octree_glassner", "-o",      "report.json"};
+
+TEST(Expression, IsATechniqueWhereverOneIsExpected) {
+  const TemporaryFolder folder;
+  const Outcome run = run_program({"run", "--scene", "tetra:2", "--rays", "chords(rays=100)", "--technique",
+                                   "uniform_grid(resolution=2x2x2)|bvh_sah", "--technique",
+                                   "hug||octree_revelles", "--counts-only", "-o", "r.json"},
+                                  folder.path());
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("uniform_grid(resolution=2x2x2)|bvh_sah"));
+  EXPECT_THAT(run.output, HasSubstr("hug||octree_revelles"));
+  EXPECT_EQ(
+      run_program({"render", "tetra:1", "--technique", "hug|bvh_sah", "-o", "t.png"}, folder.path()).status,
+      0);
+}
+
+TEST(Expression, ThatIsWrongIsShownWithACaret) {
+  const TemporaryFolder folder;
+  const Outcome wrong =
+      run_program({"run", "--technique", "hug|(bvh_sah|hug", "-o", "r.json"}, folder.path());
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.errors, HasSubstr("\n  hug|(bvh_sah|hug\n                  ^\n"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "r.json"));
+}
+
+TEST(Validate, ChecksTheLawsOfTheAlgebra) {
+  const Outcome laws = run_program({"validate", "--laws", "tetra:2"});
+  EXPECT_EQ(laws.status, 0) << laws.output;
+  EXPECT_THAT(laws.output, HasSubstr("(18) associative"));
+  EXPECT_THAT(laws.output, Not(HasSubstr("FAILS")));
+}
 
 TEST(Interrupt, EndsARunWithAReportOfWhatWasDone) {
   const TemporaryFolder folder;
