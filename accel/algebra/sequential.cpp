@@ -51,7 +51,7 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
       // A voxel that several ways lead to is one all the same.
       if (!place_of_.emplace(voxel.key, static_cast<std::uint32_t>(places_.size())).second) return;
       Place& place = places_.emplace_back(
-          Place{voxel.key, voxel.box, voxel.widened, names_.size(), voxel.objects.size()});
+          Place{voxel.key, voxel.box, voxel.widened, voxel.around, names_.size(), voxel.objects.size()});
       names_.insert(names_.end(), voxel.objects.begin(), voxel.objects.end());
       if (voxel.objects.size() <= config.until) return;
       objects.resize(voxel.objects.size());
@@ -83,11 +83,12 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
   /// The voxels of the second parts, and those of the first that keep their lists.
   void for_each_voxel(const ForVoxel& visit) const override {
     for (const Place& place : places_)
-      if (!place.divided()) visit({place.key, place.box, names(place), place.widened});
+      if (!place.divided()) visit({place.key, place.box, names(place), place.widened, place.around});
     for (const Place& place : places_)
       if (place.divided())
         sub_scenes_[place.sub_scene].optimizer->index()->for_each_voxel([&](Voxel<Real> inside) {
           inside.around.push_back(place.box);
+          inside.around.insert(inside.around.end(), place.around.begin(), place.around.end());
           visit(inside);
         });
   }
@@ -128,6 +129,8 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
     Key key;
     Box<Real> box;
     bool widened;
+    /// The voxels around it, where the first part is itself a composition.
+    std::vector<Box<Real>> around;
     /// The names of its objects.
     std::size_t first, count;
     std::uint32_t sub_scene = kNone;

@@ -115,8 +115,7 @@ TEST_F(Compositions, WorkIsCountedLevelByLevel) {
 
 /// §5.2: the parallel composition never has more candidates than either of its parts, and here it has fewer.
 TEST_F(Compositions, ParallelCompositionHasTheCandidatesOfBoth) {
-  for (const auto& [a, b] :
-       {std::pair{"uniform_grid", "octree_revelles"}, {"bvh_sah", "bsp_jansen"}}) {
+  for (const auto& [a, b] : {std::pair{"uniform_grid", "octree_revelles"}, {"bvh_sah", "bsp_jansen"}}) {
     const auto of_a = strict(*rayshoot::build(a, geometry_)), of_b = strict(*rayshoot::build(b, geometry_));
     const auto of_both = strict(fmt::format("{}||{}", a, b));
     for (std::size_t i = 0; i < rays_.size(); ++i) {
@@ -141,9 +140,10 @@ TEST_F(Compositions, ParallelCompositionStopsAtTheHit) {
 /// What `scherson_caspary` is by its paper.
 TEST_F(Compositions, SchersonAndCasparyPutHierarchiesIntoOctreeLeaves) {
   const auto engine = rayshoot::build("scherson_caspary", geometry_);
-  expect_same(strict(*engine),
-              strict("octree_revelles(max_depth=3,max_objects=64,assignment=box)|bvh_kay_kajiya(plane_sets=3)"),
-              "scherson_caspary");
+  expect_same(
+      strict(*engine),
+      strict("octree_revelles(max_depth=3,max_objects=64,assignment=box)|bvh_kay_kajiya(plane_sets=3)"),
+      "scherson_caspary");
   EXPECT_GT(engine->structure().figures.at("sub_scenes"), 8);
   // Fewer candidates than its octree, for its hierarchies hold objects tightly.
   const Work work = counted(*engine, Query::strict, rays_).work;

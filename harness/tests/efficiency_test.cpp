@@ -41,7 +41,7 @@ TEST_P(IntervalOfM, HoldsTheTrueValue) {
     const auto holds = [](const std::array<double, 2>& interval, double m) {
       return interval[0] <= m && m <= interval[1];
     };
-    const report::Efficiency all = efficiency(1000, seed), sampled = efficiency(4000, seed, 8000);
+    const report::Efficiency all = efficiency(4000, seed), sampled = efficiency(4000, seed, 8000);
     held += holds(all.m_ci95, truth.m), held_strict += holds(all.m_strict_ci95, truth.m_strict);
     held_sampled += holds(sampled.m_strict_ci95, truth.m_strict);
   }
