@@ -14,8 +14,10 @@
 
 #include <deque>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "accel/algebra/numbers.h"
+#include "accel/algebra/voxel_table.h"
 #include "scenes/core/digest.h"
 
 namespace rayshoot {
@@ -47,18 +49,22 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
     SubScenesByContent known;
     const Numbers<Real> number(input);
     std::vector<std::uint32_t> objects;
+    std::unordered_set<Key> keys;
     voxels_->for_each_voxel([&](const Voxel<Real>& voxel) {
       // A voxel that several ways lead to is one all the same.
-      if (!place_of_.emplace(voxel.key, static_cast<std::uint32_t>(places_.size())).second) return;
-      Place& place = places_.emplace_back(
-          Place{voxel.key, voxel.box, voxel.widened, voxel.around, names_.size(), voxel.objects.size()});
+      if (!keys.insert(voxel.key).second) return;
+      Place& place = places_.emplace_back(Place{voxel.key, voxel.box, voxel.widened, voxel.around, {}});
+      place.content.first = static_cast<std::uint32_t>(names_.size());
+      place.content.count = static_cast<std::uint32_t>(voxel.objects.size());
       names_.insert(names_.end(), voxel.objects.begin(), voxel.objects.end());
       if (voxel.objects.size() <= config.until) return;
       objects.resize(voxel.objects.size());
       std::transform(voxel.objects.begin(), voxel.objects.end(), objects.begin(), number);
       const Box<Real> box = divided_box(input.geometry, voxel, objects, config.box);
-      place.sub_scene = sub_scene_of(objects, box, input, second, known);
+      place.content.sub_scene = sub_scene_of(objects, box, input, second, known);
     });
+    contents_ = VoxelTable(places_.size());
+    for (const Place& place : places_) contents_.add(place.key, place.content);
   }
 
   std::unique_ptr<EngineScratch> scratch() const override { return std::make_unique<Scratch>(*this); }
@@ -67,9 +73,9 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
   bool visit(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
              CandidateVisitor<Real>& visitor) const override {
     const LevelCount inside = count.below(first_->levels());
-    const auto take_list = [&](const Place& place) {
-      inside.candidates(names(place));
-      return visitor(names(place));
+    const auto take_list = [&](Key, const InVoxel& content) {
+      inside.candidates(names(content));
+      return visitor(names(content));
     };
     const auto take_sub_scene = [&](const Optimizer<Real>& second, EngineScratch& own) {
       return second.visit(ray, own, inside, visitor);
@@ -83,10 +89,11 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
   /// The voxels of the second parts, and those of the first that keep their lists.
   void for_each_voxel(const ForVoxel& visit) const override {
     for (const Place& place : places_)
-      if (!place.divided()) visit({place.key, place.box, names(place), place.widened, place.around});
+      if (!place.content.divided())
+        visit({place.key, place.box, names(place.content), place.widened, place.around});
     for (const Place& place : places_)
-      if (place.divided())
-        sub_scenes_[place.sub_scene].optimizer->index()->for_each_voxel([&](Voxel<Real> inside) {
+      if (place.content.divided())
+        sub_scenes_[place.content.sub_scene].optimizer->index()->for_each_voxel([&](Voxel<Real> inside) {
           inside.around.push_back(place.box);
           inside.around.insert(inside.around.end(), place.around.begin(), place.around.end());
           visit(inside);
@@ -95,7 +102,7 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
 
   bool visit_voxels(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
                     VoxelVisitor<Real>& visitor) const override {
-    const auto take_list = [&](const Place& place) { return visitor(place.key); };
+    const auto take_list = [&](Key key, const InVoxel&) { return visitor(key); };
     const auto take_sub_scene = [&](const Optimizer<Real>& second, EngineScratch& own) {
       return second.index()->visit_voxels(ray, own, count.below(first_->levels()), visitor);
     };
@@ -112,9 +119,9 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
       deepest = std::max(deepest, inside.max_depth);
     }
     stats.max_depth += deepest;
-    stats.bytes += places_.size() * (sizeof(Place) + 2 * sizeof(Key)) + names_.size() * sizeof(names_[0]);
-    const auto divided =
-        std::count_if(places_.begin(), places_.end(), [](const Place& place) { return place.divided(); });
+    stats.bytes += places_.size() * sizeof(Place) + contents_.bytes() + names_.size() * sizeof(names_[0]);
+    const auto divided = std::count_if(places_.begin(), places_.end(),
+                                       [](const Place& place) { return place.content.divided(); });
     stats.figures = {{"voxels", static_cast<double>(places_.size())},
                      {"divided_voxels", static_cast<double>(divided)},
                      {"sub_scenes", static_cast<double>(sub_scenes_.size())}};
@@ -124,20 +131,15 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
   std::size_t levels() const override { return first_->levels() + levels_inside_; }
 
  private:
-  /// What stands in a voxel of the first part.
+  /// A voxel of the first part.
   struct Place {
     Key key;
     Box<Real> box;
     bool widened;
     /// The voxels around it, where the first part is itself a composition.
     std::vector<Box<Real>> around;
-    /// The names of its objects.
-    std::size_t first, count;
-    std::uint32_t sub_scene = kNone;
-
-    bool divided() const { return sub_scene != kNone; }
+    InVoxel content;
   };
-  static constexpr std::uint32_t kNone = UINT32_MAX;
 
   struct SubScene {
     std::vector<std::uint32_t> objects;
@@ -159,8 +161,8 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
     Mailbox met;
   };
 
-  std::span<const std::uint32_t> names(const Place& place) const {
-    return {names_.data() + place.first, place.count};
+  std::span<const std::uint32_t> names(const InVoxel& content) const {
+    return {names_.data() + content.first, content.count};
   }
 
   /// The sub-scene of these objects within that box: one that is known, or a new one.
@@ -198,12 +200,12 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
     const bool once = own.met.in_use();
     if (once) own.met.begin_ray();
     const auto take = [&](Key key) {
-      const Place& place = places_[place_of_.find(key)->second];
-      count.candidates(names(place));
-      if (!place.divided()) return take_list(place);
-      if (once && !own.met.first_visit(place.sub_scene)) return false;
-      const Optimizer<Real>& second = *sub_scenes_[place.sub_scene].optimizer;
-      std::unique_ptr<EngineScratch>& its = own.inside[place.sub_scene];
+      const InVoxel& content = contents_[key];
+      count.candidates(names(content));
+      if (!content.divided()) return take_list(key, content);
+      if (once && !own.met.first_visit(content.sub_scene)) return false;
+      const Optimizer<Real>& second = *sub_scenes_[content.sub_scene].optimizer;
+      std::unique_ptr<EngineScratch>& its = own.inside[content.sub_scene];
       if (!its) its = second.scratch();
       return take_sub_scene(second, *its);
     };
@@ -220,8 +222,8 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
 
   std::unique_ptr<Optimizer<Real>> first_;
   const SpatialIndex<Real>* voxels_;
-  std::unordered_map<Key, std::uint32_t> place_of_;
   std::vector<Place> places_;
+  VoxelTable contents_;
   std::vector<std::uint32_t> names_;
   /// Where they stand they stay: optimizers refer to their geometries.
   std::deque<SubScene> sub_scenes_;
