@@ -28,7 +28,7 @@ class List final : public Optimizer<Real>, public SpatialIndex<Real> {
   }
   bool visit_voxels(const Ray<Real>&, EngineScratch&, LevelCount,
                     VoxelVisitor<Real>& visitor) const override {
-    return !names_.empty() && visitor(this);
+    return !names_.empty() && visitor(this, names_);
   }
   const SpatialIndex<Real>* index() const override { return this; }
 

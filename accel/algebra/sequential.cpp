@@ -43,28 +43,24 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
 
   Sequential(const OptimizerInput<Real>& input, const BuildPart<Real>& first, const BuildPart<Real>& second,
              const SequentialConfig& config)
-      : first_(first(input)), voxels_(first_->index()) {
+      : first_(first(input)), voxels_(first_->index()), until_(config.until) {
     if (!voxels_)
       throw InputError("the first part of a sequential composition must be based on spatial indexing");
     SubScenesByContent known;
     const Numbers<Real> number(input);
     std::vector<std::uint32_t> objects;
-    std::unordered_set<Key> keys;
-    voxels_->for_each_voxel([&](const Voxel<Real>& voxel) {
-      // A voxel that several ways lead to is one all the same.
-      if (!keys.insert(voxel.key).second) return;
-      Place& place = places_.emplace_back(Place{voxel.key, voxel.box, voxel.widened, voxel.around, {}});
-      place.content.first = static_cast<std::uint32_t>(names_.size());
-      place.content.count = static_cast<std::uint32_t>(voxel.objects.size());
-      names_.insert(names_.end(), voxel.objects.begin(), voxel.objects.end());
-      if (voxel.objects.size() <= config.until) return;
+    std::vector<std::pair<Key, std::uint32_t>> divided;
+    for_each_voxel_once([&](const Voxel<Real>& voxel) {
+      ++places_;
+      if (!is_divided(voxel.objects)) return;
       objects.resize(voxel.objects.size());
       std::transform(voxel.objects.begin(), voxel.objects.end(), objects.begin(), number);
       const Box<Real> box = divided_box(input.geometry, voxel, objects, config.box);
-      place.content.sub_scene = sub_scene_of(objects, box, input, second, known);
+      divided.emplace_back(voxel.key, sub_scene_of(objects, box, input, second, known));
     });
-    contents_ = VoxelTable(places_.size());
-    for (const Place& place : places_) contents_.add(place.key, place.content);
+    divided_ = divided.size();
+    sub_scene_in_ = VoxelTable(divided_);
+    for (const auto& [key, sub_scene] : divided) sub_scene_in_.add(key, sub_scene);
   }
 
   std::unique_ptr<EngineScratch> scratch() const override { return std::make_unique<Scratch>(*this); }
@@ -73,9 +69,9 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
   bool visit(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
              CandidateVisitor<Real>& visitor) const override {
     const LevelCount inside = count.below(first_->levels());
-    const auto take_list = [&](Key, const InVoxel& content) {
-      inside.candidates(names(content));
-      return visitor(names(content));
+    const auto take_list = [&](Key, std::span<const std::uint32_t> objects) {
+      inside.candidates(objects);
+      return visitor(objects);
     };
     const auto take_sub_scene = [&](const Optimizer<Real>& second, EngineScratch& own) {
       return second.visit(ray, own, inside, visitor);
@@ -88,21 +84,21 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
 
   /// The voxels of the second parts, and those of the first that keep their lists.
   void for_each_voxel(const ForVoxel& visit) const override {
-    for (const Place& place : places_)
-      if (!place.content.divided())
-        visit({place.key, place.box, names(place.content), place.widened, place.around});
-    for (const Place& place : places_)
-      if (place.content.divided())
-        sub_scenes_[place.content.sub_scene].optimizer->index()->for_each_voxel([&](Voxel<Real> inside) {
-          inside.around.push_back(place.box);
-          inside.around.insert(inside.around.end(), place.around.begin(), place.around.end());
-          visit(inside);
-        });
+    for_each_voxel_once([&](const Voxel<Real>& voxel) {
+      if (!is_divided(voxel.objects)) return visit(voxel);
+      second_in(voxel.key).index()->for_each_voxel([&](Voxel<Real> inside) {
+        inside.around.push_back(voxel.box);
+        inside.around.insert(inside.around.end(), voxel.around.begin(), voxel.around.end());
+        visit(inside);
+      });
+    });
   }
 
   bool visit_voxels(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
                     VoxelVisitor<Real>& visitor) const override {
-    const auto take_list = [&](Key key, const InVoxel&) { return visitor(key); };
+    const auto take_list = [&](Key key, std::span<const std::uint32_t> objects) {
+      return visitor(key, objects);
+    };
     const auto take_sub_scene = [&](const Optimizer<Real>& second, EngineScratch& own) {
       return second.index()->visit_voxels(ray, own, count.below(first_->levels()), visitor);
     };
@@ -119,11 +115,9 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
       deepest = std::max(deepest, inside.max_depth);
     }
     stats.max_depth += deepest;
-    stats.bytes += places_.size() * sizeof(Place) + contents_.bytes() + names_.size() * sizeof(names_[0]);
-    const auto divided = std::count_if(places_.begin(), places_.end(),
-                                       [](const Place& place) { return place.content.divided(); });
-    stats.figures = {{"voxels", static_cast<double>(places_.size())},
-                     {"divided_voxels", static_cast<double>(divided)},
+    stats.bytes += sub_scene_in_.bytes();
+    stats.figures = {{"voxels", static_cast<double>(places_)},
+                     {"divided_voxels", static_cast<double>(divided_)},
                      {"sub_scenes", static_cast<double>(sub_scenes_.size())}};
     return stats;
   }
@@ -131,16 +125,6 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
   std::size_t levels() const override { return first_->levels() + levels_inside_; }
 
  private:
-  /// A voxel of the first part.
-  struct Place {
-    Key key;
-    Box<Real> box;
-    bool widened;
-    /// The voxels around it, where the first part is itself a composition.
-    std::vector<Box<Real>> around;
-    InVoxel content;
-  };
-
   struct SubScene {
     std::vector<std::uint32_t> objects;
     Geometry<Real> geometry;
@@ -161,8 +145,17 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
     Mailbox met;
   };
 
-  std::span<const std::uint32_t> names(const InVoxel& content) const {
-    return {names_.data() + content.first, content.count};
+  /// A voxel with few objects keeps its plain list.
+  bool is_divided(std::span<const std::uint32_t> objects) const { return objects.size() > until_; }
+  const Optimizer<Real>& second_in(Key voxel) const { return *sub_scenes_[sub_scene_in_[voxel]].optimizer; }
+
+  /// Call visit for each voxel of the first part: one that several ways lead to is one all the same.
+  template <class Visit>
+  void for_each_voxel_once(const Visit& visit) const {
+    std::unordered_set<Key> keys;
+    voxels_->for_each_voxel([&](const Voxel<Real>& voxel) {
+      if (keys.insert(voxel.key).second) visit(voxel);
+    });
   }
 
   /// The sub-scene of these objects within that box: one that is known, or a new one.
@@ -199,20 +192,24 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
     auto& own = static_cast<Scratch&>(scratch);
     const bool once = own.met.in_use();
     if (once) own.met.begin_ray();
-    const auto take = [&](Key key) {
-      const InVoxel& content = contents_[key];
-      count.candidates(names(content));
-      if (!content.divided()) return take_list(key, content);
-      if (once && !own.met.first_visit(content.sub_scene)) return false;
-      const Optimizer<Real>& second = *sub_scenes_[content.sub_scene].optimizer;
-      std::unique_ptr<EngineScratch>& its = own.inside[content.sub_scene];
+    const auto take = [&](Key key, std::span<const std::uint32_t> objects) {
+      count.candidates(objects);
+      if (!is_divided(objects)) return take_list(key, objects);
+      const std::uint32_t sub_scene = sub_scene_in_[key];
+      if (once && !own.met.first_visit(sub_scene)) return false;
+      const Optimizer<Real>& second = *sub_scenes_[sub_scene].optimizer;
+      std::unique_ptr<EngineScratch>& its = own.inside[sub_scene];
       if (!its) its = second.scratch();
       return take_sub_scene(second, *its);
     };
     struct Voxels final : VoxelVisitor<Real> {
-      Voxels(const decltype(take)& take, const Visitor& asks) : take_(take), asks_(asks) {}
-      bool operator()(Key key) override { return take_(key); }
-      Real reach() const override { return asks_.reach(); }
+      Voxels(const decltype(take)& take, const Visitor& asks)
+          : VoxelVisitor<Real>(asks.reach()), take_(take), asks_(asks) {}
+      bool operator()(Key key, std::span<const std::uint32_t> objects) override {
+        const bool end = take_(key, objects);
+        this->reach_ = asks_.reach();
+        return end;
+      }
 
       const decltype(take)& take_;
       const Visitor& asks_;
@@ -222,9 +219,10 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
 
   std::unique_ptr<Optimizer<Real>> first_;
   const SpatialIndex<Real>* voxels_;
-  std::vector<Place> places_;
-  VoxelTable contents_;
-  std::vector<std::uint32_t> names_;
+  std::uint32_t until_;
+  /// Voxels of the first part, and those of them that are divided.
+  std::size_t places_ = 0, divided_ = 0;
+  VoxelTable sub_scene_in_;
   /// Where they stand they stay: optimizers refer to their geometries.
   std::deque<SubScene> sub_scenes_;
   bool shares_ = false;

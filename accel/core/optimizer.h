@@ -99,12 +99,15 @@ struct Voxel {
 template <class Real>
 class VoxelVisitor {
  public:
-  /// Take a voxel that has objects; true when the visit must end.
-  virtual bool operator()(typename Voxel<Real>::Key voxel) = 0;
-  virtual Real reach() const = 0;
+  /// Take a voxel that has objects, and these; true when the visit must end.
+  virtual bool operator()(typename Voxel<Real>::Key voxel, std::span<const std::uint32_t> objects) = 0;
+  /// The distance beyond which nothing matters any more.
+  Real reach() const { return reach_; }
 
  protected:
+  explicit VoxelVisitor(Real reach) : reach_(reach) {}
   ~VoxelVisitor() = default;
+  Real reach_;
 };
 
 /// The spatial index of an optimizer that is based on one (equation 14): its candidates are the objects of the voxels on the

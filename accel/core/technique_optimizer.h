@@ -22,6 +22,7 @@ class TechniqueOptimizer : public Optimizer<typename A::Scalar> {
 
   TechniqueOptimizer(const OptimizerInput<Real>& input, const Arguments& arguments)
       : technique_(A::build({input.geometry, input.sample}, A::configure(arguments))) {
+    renames_ = OrdersObjects<A> || !input.names.empty();
     names_.reserve(input.geometry.size());
     for (std::uint32_t position = 0; position < input.geometry.size(); ++position)
       names_.push_back(input.name(object_at(position)));
@@ -59,12 +60,16 @@ class TechniqueOptimizer : public Optimizer<typename A::Scalar> {
   struct Scratch final : EngineScratch {
     explicit Scratch(typename A::Scratch own) : technique(std::move(own)) {}
     typename A::Scratch technique;
+    /// What the objects of a cell are called.
+    std::vector<std::uint32_t> named{};
   };
   static typename A::Scratch& own(EngineScratch& scratch) { return static_cast<Scratch&>(scratch).technique; }
 
   A technique_;
   /// What the object at each position is called.
   std::vector<std::uint32_t> names_;
+  /// Whether that is not the position itself.
+  bool renames_ = false;
 
  private:
   std::uint32_t object_at(std::uint32_t position) const {
@@ -100,22 +105,33 @@ class TechniqueIndex final : public TechniqueOptimizer<A>, public SpatialIndex<t
 
   bool visit_voxels(const Ray<Real>& ray, EngineScratch& scratch, LevelCount count,
                     VoxelVisitor<Real>& visitor) const override {
-    return count.counts() ? visit_cells(ray, this->own(scratch), count.counter(), visitor)
-                          : visit_cells(ray, this->own(scratch), NoCount{}, visitor);
+    auto& own = static_cast<typename TechniqueOptimizer<A>::Scratch&>(scratch);
+    return count.counts() ? visit_cells(ray, own, count.counter(), visitor)
+                          : visit_cells(ray, own, NoCount{}, visitor);
   }
 
  private:
   template <class Counter>
-  bool visit_cells(const Ray<Real>& ray, typename A::Scratch& scratch, Counter count,
+  [[gnu::flatten]] bool visit_cells(const Ray<Real>& ray, typename TechniqueOptimizer<A>::Scratch& scratch, Counter count,
                    VoxelVisitor<Real>& visitor) const {
     bool ended = false;
-    this->technique_.cells(scratch).visit_cells(
-        ray, count, [&] { return visitor.reach(); },
-        [&](std::span<const std::uint32_t> objects) {
-          count.cell(objects.empty());
-          return ended = !objects.empty() && visitor(objects.data());
-        });
+    this->technique_.cells(scratch.technique)
+        .visit_cells(
+            ray, count, [&] { return visitor.reach(); },
+            [&](std::span<const std::uint32_t> objects) {
+              count.cell(objects.empty());
+              return ended = !objects.empty() && visitor(objects.data(), named(objects, scratch.named));
+            });
     return ended;
+  }
+
+  std::span<const std::uint32_t> named(std::span<const std::uint32_t> positions,
+                                       std::vector<std::uint32_t>& room) const {
+    if (!this->renames_) return positions;
+    room.resize(positions.size());
+    std::transform(positions.begin(), positions.end(), room.begin(),
+                   [&](std::uint32_t position) { return this->names_[position]; });
+    return room;
   }
 };
 
