@@ -44,6 +44,7 @@ void set_builders(TechniqueEntry& entry, const BuildComposed& optimizer) {
   };
   entry.build_float = engine, entry.build_double = engine;
   entry.optimizer_float = optimizer, entry.optimizer_double = optimizer;
+  entry.composed = true;
 }
 
 /// The parameters of all parts with their values, named by the part's place in the expression: "2.density".

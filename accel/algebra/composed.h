@@ -6,8 +6,8 @@
 
 namespace rayshoot {
 
-/// An optimizer, however it was composed, as what answers queries. For each level of the composition it counts the events
-/// level_<L>_steps and level_<L>_candidates, the distinct candidates of that level.
+/// An optimizer, however it was composed, as what answers queries. For each level of a composition it counts the events
+/// level_<L>_steps and level_<L>_candidates, the distinct candidates of that level; a technique counts its own events.
 template <class Real>
 class Composed {
  public:
@@ -19,10 +19,11 @@ class Composed {
     std::optional<LevelWork> levels;
   };
 
-  /// Of the `objects` of the scene that it was built over.
-  Composed(std::unique_ptr<Optimizer<Real>> optimizer, std::uint32_t objects)
+  /// Of the `objects` of the scene that it was built over; `composed` says whether of levels.
+  Composed(std::unique_ptr<Optimizer<Real>> optimizer, std::uint32_t objects, bool composed = true)
       : optimizer_(std::move(optimizer)),
         objects_(objects),
+        composed_(composed),
         structure_(optimizer_->structure()),
         mailboxes_(wants_mailbox(MailboxUse::automatic, structure_.references, objects) ? objects : 0) {}
 
@@ -77,6 +78,9 @@ class Composed {
     for (std::size_t level = 0; level < LevelWork::kMostLevels; ++level) {
       const Work& work = levels.work(level);
       count.traversal(work);
+      for (std::size_t kind = 0; !composed_ && kind < kMostEventKinds; ++kind)
+        count.event(kind, work.events[kind]);
+      if (!composed_) continue;
       count.event(2 * level, work.steps);
       count.event(2 * level + 1, work.distinct_objects);
     }
@@ -84,6 +88,7 @@ class Composed {
 
   std::unique_ptr<Optimizer<Real>> optimizer_;
   std::uint32_t objects_;
+  bool composed_;
   StructureStats structure_;
   std::uint32_t mailboxes_;
 };

@@ -58,10 +58,7 @@ class Parallel final : public Optimizer<Real> {
 
   StructureStats structure() const override {
     StructureStats stats = first_->structure();
-    const StructureStats other = second_->structure();
-    stats.nodes += other.nodes, stats.leaves += other.leaves, stats.empty_leaves += other.empty_leaves;
-    stats.references += other.references, stats.bytes += other.bytes;
-    stats.max_depth = std::max(stats.max_depth, other.max_depth);
+    stats += second_->structure();
     stats.figures.clear();
     return stats;
   }

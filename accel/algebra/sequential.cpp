@@ -106,15 +106,14 @@ class Sequential final : public Optimizer<Real>, public SpatialIndex<Real> {
   }
 
   StructureStats structure() const override {
-    StructureStats stats = first_->structure();
-    std::uint64_t deepest = 0;
+    StructureStats stats = first_->structure(), inside;
     for (const SubScene& sub_scene : sub_scenes_) {
-      const StructureStats inside = sub_scene.optimizer->structure();
-      stats.nodes += inside.nodes, stats.leaves += inside.leaves, stats.empty_leaves += inside.empty_leaves;
-      stats.references += inside.references, stats.bytes += inside.bytes + sub_scene.geometry.bytes();
-      deepest = std::max(deepest, inside.max_depth);
+      inside += sub_scene.optimizer->structure();
+      inside.bytes += sub_scene.geometry.bytes();
     }
-    stats.max_depth += deepest;
+    const std::uint64_t depth = stats.max_depth + inside.max_depth;
+    stats += inside;
+    stats.max_depth = depth;
     stats.bytes += sub_scene_in_.bytes();
     stats.figures = {{"voxels", static_cast<double>(places_)},
                      {"divided_voxels", static_cast<double>(divided_)},

@@ -31,7 +31,7 @@ namespace rayshoot {
 namespace {
 
 /// I of equation (1): what a ray-object test costs on average by kind of object, in the unit of B and measured along with
-/// it, by exhaustive search.
+/// it, by exhaustive search. A placed part has no cost of its own.
 constexpr double object_test_cost(ObjectKind kind) {
   switch (kind) {
     case ObjectKind::triangle:
@@ -42,6 +42,8 @@ constexpr double object_test_cost(ObjectKind kind) {
       return 2.0;
     case ObjectKind::cone:
       return 3.2;
+    case ObjectKind::placed:
+      break;
   }
   return 0;
 }

@@ -72,21 +72,22 @@ class BvhSah {
     });
   }
 
-  /// Its leaves are the cells of a composition.
+  /// Its leaves are the cells of a composition: each holds a range of positions.
+  void prepare_cells() {
+    positions_.resize(order_.size());
+    std::iota(positions_.begin(), positions_.end(), 0u);
+  }
   const BvhSah& cells(Scratch&) const { return *this; }
   template <class Counter, class Reach, class Visit>
   void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     walk_pairs(tree_, ray, count, reach, [&](std::uint32_t first, std::uint32_t objects) {
-      return visit(std::span(order_).subspan(first, objects));
+      return visit(std::span(positions_).subspan(first, objects));
     });
   }
   template <class Visit>
   void for_each_cell(const Visit& visit) const {
-    std::vector<std::uint32_t> positions;
     tree_.for_each_leaf([&](const Box<Real>& box, std::uint32_t first, std::uint32_t objects) {
-      positions.resize(objects);
-      std::iota(positions.begin(), positions.end(), first);
-      visit(box, &order_[first], positions);
+      visit(box, &positions_[first], std::span(positions_).subspan(first, objects));
     });
   }
 
@@ -129,6 +130,8 @@ class BvhSah {
 
   PairTree<Real> tree_;
   std::vector<std::uint32_t> order_;
+  /// All positions in turn, in a composition alone.
+  std::vector<std::uint32_t> positions_;
 };
 
 }  // namespace

@@ -15,6 +15,12 @@ concept PredictsCost = requires(const A a) {
   { a.predicted() } -> std::convertible_to<std::optional<Prediction<typename A::Scalar>>>;
 };
 
+/// What tests its candidates itself, where they are: `object_test(scratch)` is the test of the one last handed on.
+template <class A>
+concept TestsObjects = requires(const A a, const typename A::Scratch& scratch) {
+  a.object_test(scratch);
+};
+
 /// Derives the batch interface of an engine from a technique's `visit`.
 template <Visitable A>
 class TechniqueEngine final : public Engine<typename A::Scalar> {
@@ -40,13 +46,13 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
   void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
                EngineScratch& scratch) const override {
     auto& own = static_cast<Scratch&>(scratch).technique;
-    with_object_test(*geometry_, [&](const auto& test) { closest_of_all(test, rays, hits, own); });
+    with_test(own, [&](const auto& test) { closest_of_all(test, rays, hits, own); });
   }
 
   void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked,
            EngineScratch& scratch) const override {
     auto& own = static_cast<Scratch&>(scratch).technique;
-    with_object_test(*geometry_, [&](const auto& test) { any_of_all(test, rays, blocked, own); });
+    with_test(own, [&](const auto& test) { any_of_all(test, rays, blocked, own); });
   }
 
   CountedWork count(Query query, std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
@@ -58,7 +64,7 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       Work work;
       hits[i] = counted_query(query, rays[i], own, work);
-      work.distinct_objects = own.make_distinct(geometry_->size());
+      work.distinct_objects = own.make_distinct(geometry_->numbers());
       const auto distinct = static_cast<double>(work.distinct_objects);
       sum += {work, square(distinct), i % 2 == 0 ? 0 : square(distinct - neighbour),
               square(static_cast<double>(work.object_tests)), square(static_cast<double>(work.volume_tests))};
@@ -72,7 +78,7 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     auto& own = static_cast<Scratch&>(scratch);
     Work work;
     counted_query(query, ray, own, work);
-    own.make_distinct(geometry_->size());
+    own.make_distinct(geometry_->numbers());
     std::vector<std::uint32_t> objects(own.candidates.size());
     std::transform(own.candidates.begin(), own.candidates.end(), objects.begin(), name());
     std::sort(objects.begin(), objects.end());
@@ -94,6 +100,12 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
 
     /// Leave each of the `candidates` in place once; returns their number.
     std::uint64_t make_distinct(std::uint32_t objects) {
+      // Where parts are placed there may be more objects than can be remembered.
+      if constexpr (TestsObjects<A>) {
+        std::sort(candidates.begin(), candidates.end());
+        candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+        return candidates.size();
+      }
       last_counted.resize(objects);
       ++counted;
       std::erase_if(candidates, [&](std::uint32_t object) {
@@ -116,6 +128,21 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
       return {};
   }
 
+  /// Call function(test) with the ray-object test that serves best.
+  template <class Function>
+  void with_test(const typename A::Scratch& scratch, const Function& function) const {
+    if constexpr (TestsObjects<A>)
+      function(technique_.object_test(scratch));
+    else
+      with_object_test(*geometry_, function);
+  }
+  auto counted_test(const typename A::Scratch& scratch) const {
+    if constexpr (TestsObjects<A>)
+      return technique_.object_test(scratch);
+    else
+      return ObjectTest<Real>{*geometry_};
+  }
+
   /// The timed loops: everything below them is one function to the compiler.
   template <class Test>
   [[gnu::flatten, gnu::noinline]] void closest_of_all(const Test& test, std::span<const Ray<Real>> rays,
@@ -134,8 +161,8 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
 
   Hit<Real> counted_query(Query query, const Ray<Real>& given, Scratch& scratch, Work& work) const {
     const Ray<Real> ray = begun(given);
-    using Test = ObjectTest<Real>;
-    const Test test{*geometry_};
+    const auto test = counted_test(scratch.technique);
+    using Test = std::remove_const_t<decltype(test)>;
     if (query == Query::closest) {
       ClosestLeaf<Real, Test> leaf(test, name(), ray);
       counted_visit(technique_, ray, scratch.technique, work, leaf, scratch.candidates);

@@ -85,8 +85,13 @@ struct TechniqueEntry {
 
   /// Whether it is based on spatial indexing, so that what is in its voxels can be divided again.
   bool indexes_space = false;
+  /// Whether its optimizers are compositions, whose events are those of levels.
+  bool composed = false;
+  /// Whether it builds engines for scenes of placed parts itself.
+  bool builds_parts = false;
 
   bool composable() const { return optimizer_float && optimizer_double; }
+  bool searches_parts() const { return builds_parts || composable(); }
   template <class Real>
   bool supports() const {
     if constexpr (std::same_as<Real, float>)
@@ -94,8 +99,10 @@ struct TechniqueEntry {
     else
       return static_cast<bool>(build_double);
   }
+  /// In a scene of placed parts with an optimizer for each part.
   template <class Real>
   std::unique_ptr<Engine<Real>> build(const EngineInput<Real>& input) const {
+    if (input.geometry.has_placed() && !builds_parts) return build_in_parts(input);
     if constexpr (std::same_as<Real, float>)
       return build_float(input);
     else
@@ -109,6 +116,10 @@ struct TechniqueEntry {
     else
       return optimizer_double(input, arguments);
   }
+
+ private:
+  template <class Real>
+  std::unique_ptr<Engine<Real>> build_in_parts(const EngineInput<Real>& input) const;
 };
 
 }  // namespace rayshoot

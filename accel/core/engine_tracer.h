@@ -15,7 +15,7 @@ class EngineTracer final : public Tracer {
   void closest(std::span<const Ray<double>> rays, std::span<Hit<double>> hits) const override {
     trace_closest(engine_, rays, hits, scratch_, threads_);
     for (Hit<double>& hit : hits)
-      if (hit.object != kNoObject) hit.object = geometry_.scene_object(hit.object);
+      if (hit.object != kNoObject) hit.object = geometry_.scene_number(hit.object);
   }
   void any(std::span<const Ray<double>> rays, std::span<std::uint8_t> blocked) const override {
     trace_any(engine_, rays, blocked, scratch_, threads_);

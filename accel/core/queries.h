@@ -118,11 +118,12 @@ class RecordingLeaf {
   std::vector<std::uint32_t>& candidates_;
 };
 
-/// The ray as techniques expect it: it begins at 0 at the earliest, also where its t_min is negative or no number. From
-/// such a t_min steps need not advance.
+/// The ray as techniques expect it: it begins at 0 at the earliest, also where its t_min is negative or no number, for from
+/// such a t_min steps need not advance; and its time is one from 0 to 1.
 template <class Real>
 Ray<Real> begun(Ray<Real> ray) {
   ray.t_min = std::max(Real{0}, ray.t_min);
+  ray.time = std::min(std::max(Real{0}, ray.time), Real{1});
   return ray;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <map>
@@ -62,7 +63,17 @@ struct StructureStats {
   std::uint64_t bytes = 0;         ///< memory of the structure, without the objects themselves
   /// What only this technique has, by name in snake case, with the unit in the name.
   std::map<std::string, double> figures{};
+
+  /// Add what stands beside it; figures are not added.
+  StructureStats& operator+=(const StructureStats& other);
 };
+
+inline StructureStats& StructureStats::operator+=(const StructureStats& other) {
+  nodes += other.nodes, leaves += other.leaves, empty_leaves += other.empty_leaves;
+  references += other.references, bytes += other.bytes;
+  max_depth = std::max(max_depth, other.max_depth);
+  return *this;
+}
 
 /// Equation (3): expected tests per ray that hits the root volume, occlusion neglected, and that volume.
 template <class Real>
@@ -108,9 +119,10 @@ concept Visitable = requires(const A a, typename A::Scratch scratch, Ray<typenam
 
 /// A technique is built once from a scene and its parameters. One whose candidates are the objects of the cells on the ray may
 /// also define, to be the first part of a composition (optimizer.h),
+///   prepare_cells()        optional; called once before the others
 ///   cells(scratch)         what has visit_cells (parts/visit_cells.h)
-///   for_each_cell(visit)   calls visit(box, key, positions) for each cell with objects: `key` is where the list stands that
-///                          visit_cells hands out, `positions` are the objects in it
+///   for_each_cell(visit)   calls visit(box, key, positions) for each cell with objects: `positions` are the list that
+///                          visit_cells hands out, and `key` is where it stands
 ///   widens_cells()         optional; whether some rays are shown cells that they pass by (parts/surface_margin.h)
 template <class A>
 concept Technique = Visitable<A> && requires(BuildInput<typename A::Scalar> in, const Arguments& arguments) {

@@ -87,7 +87,11 @@ class TechniqueIndex final : public TechniqueOptimizer<A>, public SpatialIndex<t
  public:
   using Real = typename A::Scalar;
   using typename SpatialIndex<Real>::ForVoxel;
-  using TechniqueOptimizer<A>::TechniqueOptimizer;
+
+  TechniqueIndex(const OptimizerInput<Real>& input, const Arguments& arguments)
+      : TechniqueOptimizer<A>(input, arguments) {
+    if constexpr (requires { this->technique_.prepare_cells(); }) this->technique_.prepare_cells();
+  }
 
   const SpatialIndex<Real>* index() const override { return this; }
 
@@ -112,8 +116,8 @@ class TechniqueIndex final : public TechniqueOptimizer<A>, public SpatialIndex<t
 
  private:
   template <class Counter>
-  [[gnu::flatten]] bool visit_cells(const Ray<Real>& ray, typename TechniqueOptimizer<A>::Scratch& scratch, Counter count,
-                   VoxelVisitor<Real>& visitor) const {
+  [[gnu::flatten]] bool visit_cells(const Ray<Real>& ray, typename TechniqueOptimizer<A>::Scratch& scratch,
+                                    Counter count, VoxelVisitor<Real>& visitor) const {
     bool ended = false;
     this->technique_.cells(scratch.technique)
         .visit_cells(

@@ -33,6 +33,9 @@ struct PairTree {
   ChildReference root{0, 0};
   Box<Real> bounds;
 
+  /// What a child is at a time: itself. Trees that know times define it otherwise (spacetime_tree.h).
+  ChildReference at_time(const ChildReference& child, Real) const { return child; }
+
   bool empty() const { return nodes.empty() && !root.leaf(); }
   /// Nodes and leaves.
   std::uint64_t size() const { return empty() ? 0 : 2 * nodes.size() + 1; }

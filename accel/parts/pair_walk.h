@@ -9,8 +9,8 @@ namespace rayshoot {
 /// one while it can still matter.
 ///   visit(first, count)  is called with the objects of each leaf, by place in the tree's order; true ends the walk
 ///   reach()              is the distance at which the walk may end; leaves that begin there are still visited
-template <class Real, class Counter, class Reach, class Visit>
-void walk_pairs(const PairTree<Real>& tree, const Ray<Real>& ray, Counter count, const Reach& reach,
+template <class Tree, class Real, class Counter, class Reach, class Visit>
+void walk_pairs(const Tree& tree, const Ray<Real>& ray, Counter count, const Reach& reach,
                 const Visit& visit) {
   // Leave out rays that miss everything.
   if (tree.empty()) return;
@@ -27,6 +27,7 @@ void walk_pairs(const PairTree<Real>& tree, const Ray<Real>& ray, Counter count,
   const PairCrossings<Real> crossings(ray);
   ChildReference current = tree.root;
   while (true) {
+    current = tree.at_time(current, ray.time);
     if (current.leaf()) {
       if (visit(current.first, current.count)) return;
     } else {

@@ -55,6 +55,10 @@ void append_surface(const Geometry<Real>& geometry, std::uint32_t object, std::v
       const Cone<Real>& cone = geometry.cone(object);
       return append_frustum(Vec3d(cone.base), cone.base_radius, Vec3d(cone.apex), cone.apex_radius, balls);
     }
+    case ObjectKind::placed: {
+      const Box<Real> box = geometry.bounds(object);
+      return append_corners({Vec3d(box.lo), Vec3d(box.hi)}, balls);
+    }
     case ObjectKind::polygon:
       break;
   }

@@ -45,19 +45,20 @@ struct Truth {
 template <class Real>
 Truth<Real> truth(const Geometry<Real>& geometry, const Ray<Real>& ray) {
   Truth<Real> truth;
-  for (std::uint32_t object = 0; object < geometry.size(); ++object) {
-    const Real t = geometry.hit_distance(object, ray);
+  for (std::uint32_t number = 0; number < geometry.numbers(); ++number) {
+    const Real t = geometry.hit_distance_of_number(number, ray);
     if (t == kMiss<Real>) continue;
-    truth.all.push_back(object);
-    if (t < truth.nearest.t) truth.nearest = {t, object};
+    truth.all.push_back(number);
+    if (t < truth.nearest.t) truth.nearest = {t, number};
   }
   return truth;
 }
 
 template <class Real>
 std::string describe(const Ray<Real>& r) {
-  return fmt::format("ray origin ({}, {}, {}) direction ({}, {}, {}) interval ({}, {}]", r.origin.x,
-                     r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z, r.t_min, r.t_max);
+  return fmt::format("ray origin ({}, {}, {}) direction ({}, {}, {}) interval ({}, {}] time {}", r.origin.x,
+                     r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z, r.t_min, r.t_max,
+                     r.time);
 }
 
 /// Sorted ranges: whether every element of `part` is in `whole`.

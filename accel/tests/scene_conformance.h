@@ -60,7 +60,7 @@ void check_sets(std::span<const TechniqueEntry* const> entries, const Geometry<R
     if (!entry->supports<Real>()) continue;
     std::vector<Variant> of_entry = variants(*entry);
     // What goes through all objects takes its time: where they are many, one configuration does.
-    if (entry->info.max_practical_objects < UINT64_MAX && geometry.size() > kSmallScene) of_entry.resize(1);
+    if (entry->info.max_practical_objects < UINT64_MAX && geometry.numbers() > kSmallScene) of_entry.resize(1);
     for (const Variant& variant : of_entry) {
       SCOPED_TRACE(fmt::format("{}, {} bytes a number", variant.name(), sizeof(Real)));
       const Arguments arguments = variant.arguments();

@@ -29,6 +29,7 @@ std::vector<EmbreeObjects::Piece> EmbreeObjects::divide(bool native_spheres) {
         objects_[native_spheres ? kPoints : kUser].push_back(object);
         break;
       case ObjectKind::cone:
+      case ObjectKind::placed:
         objects_[kUser].push_back(object);
         break;
     }

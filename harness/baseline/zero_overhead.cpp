@@ -28,11 +28,11 @@ class ZeroOverhead final : public Engine<Real> {
   std::unique_ptr<EngineScratch> scratch() const override { return std::make_unique<EngineScratch>(); }
 
   void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits, EngineScratch&) const override {
-    with_object_test(geometry_, [&](const auto& test) { replay(test, rays, recorded(rays), hits); });
+    with_test([&](const auto& test) { replay(test, rays, recorded(rays), hits); });
   }
 
   void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked, EngineScratch&) const override {
-    with_object_test(geometry_, [&](const auto& test) { replay(test, rays, recorded(rays), blocked); });
+    with_test([&](const auto& test) { replay(test, rays, recorded(rays), blocked); });
   }
 
   /// The strict query hands out the nearest hit as well: nothing but that is known.
@@ -57,6 +57,15 @@ class ZeroOverhead final : public Engine<Real> {
   StructureStats structure() const override { return {}; }
 
  private:
+  /// Hits tell objects by number: where parts are placed, the object has to be found.
+  template <class Function>
+  void with_test(const Function& function) const {
+    if (!geometry_.has_placed()) return with_object_test(geometry_, function);
+    function([this](std::uint32_t number, const Ray<Real>& ray) {
+      return geometry_.hit_distance_of_number(number, ray);
+    });
+  }
+
   /// The hits of rays that are a part of the recorded ones, told by where they lie in memory.
   std::span<const Hit<Real>> recorded(std::span<const Ray<Real>> rays) const {
     const std::less_equal<const Ray<Real>*> not_behind;
@@ -106,7 +115,8 @@ const TechniqueEntry& baseline_zero_overhead() {
                                              .needs_recorded_hits = true,
                                              .baseline = true},
                                     .build_float = build<float>,
-                                    .build_double = build<double>};
+                                    .build_double = build<double>,
+                                    .builds_parts = true};
   return entry;
 }
 

@@ -32,6 +32,8 @@ std::vector<std::string> needs_list(const SceneNeeds& needs) {
   if (needs.reflected_rays) words.push_back("reflected rays");
   if (needs.refracted_rays) words.push_back("refracted rays");
   if (needs.curved_objects) words.push_back("curved objects");
+  if (needs.placed_parts) words.push_back("placed parts");
+  if (needs.motion) words.push_back("motion");
   return words;
 }
 

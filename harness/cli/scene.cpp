@@ -37,7 +37,9 @@ Json needs_json(const SceneNeeds& needs) {
           {"reflected_rays", needs.reflected_rays},
           {"refracted_rays", needs.refracted_rays},
           {"curved_objects", needs.curved_objects},
-          {"triangles_only", needs.triangles_only}};
+          {"triangles_only", needs.triangles_only},
+          {"placed_parts", needs.placed_parts},
+          {"motion", needs.motion}};
 }
 
 Json topology_json(const MeshTopology& topology) {
@@ -53,7 +55,7 @@ Json topology_json(const MeshTopology& topology) {
 /// Everything there is to say about a scene; the text is this JSON in words.
 Json statistics(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
-  Json json = {{"id", scene.id}, {"objects", scene.size()}};
+  Json json = {{"id", scene.id}, {"objects", scene.numbers()}};
   if (!loaded.generator.empty()) json["generator"] = loaded.generator;
   if (loaded.size) json["size"] = *loaded.size;
   if (!loaded.form.empty()) json["form"] = loaded.form;
@@ -108,7 +110,7 @@ void print_text(const LoadedScene& loaded) {
     fmt::print("{:<12} {}\n", name, value);
   };
   line("scene", loaded.scene.id);
-  line("objects", fmt::format("{} ({})", loaded.scene.size(), kinds_in_words(loaded.scene)));
+  line("objects", fmt::format("{} ({})", loaded.scene.numbers(), kinds_in_words(loaded.scene)));
   if (const Box<double> box = loaded.scene.bounds(); !box.empty())
     line("bounds", fmt::format("({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})", box.lo.x, box.lo.y, box.lo.z,
                                box.hi.x, box.hi.y, box.hi.z));

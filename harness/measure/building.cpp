@@ -80,7 +80,8 @@ std::vector<Ray<Real>> sampled(const std::vector<const RaySet*>& sets) {
     for (; skip < set->rays.size(); skip += stride) {
       const Ray<double>& ray = set->rays[skip];
       sample.push_back({Vec3<Real>(ray.origin), static_cast<Real>(ray.t_min), Vec3<Real>(ray.direction),
-                        static_cast<Real>(std::min<double>(ray.t_max, std::numeric_limits<Real>::max()))});
+                        static_cast<Real>(std::min<double>(ray.t_max, std::numeric_limits<Real>::max())),
+                        static_cast<Real>(ray.time)});
     }
     skip -= set->rays.size();
   }

@@ -158,7 +158,7 @@ class GroupRun {
   /// Hold the nearest hits of rays spread over the batch against exact arithmetic.
   void grade(std::vector<Cell<Real>>& cells, const Batch<Real>& batch) {
     const std::size_t rays = batch.closest().size(), graded = std::min<std::size_t>(suite_.graded_rays, rays);
-    if (graded == 0) return;
+    if (graded == 0 || geometry_.has_placed()) return;
     announce(fmt::format("grading {} answers exactly", graded));
     if (!exact_) exact_.emplace(geometry_);
     for (Cell<Real>& cell : cells) {
@@ -208,7 +208,7 @@ class GroupRun {
     measurement.predicted = predict(cell.engine(), batch);
     if (!cell.engine().countable()) return;
     const Counts counts =
-        count(cell.engine(), batch, geometry_.size(), suite_.strict_tests, suite_.seed, all_threads_);
+        count(cell.engine(), batch, geometry_.numbers(), suite_.strict_tests, suite_.seed, all_threads_);
     const std::vector<std::string>& events = cell.built->choice->entry->info.events;
     measurement.work = record(counts.work, events);
     measurement.strict_work = record(counts.strict_work, events);

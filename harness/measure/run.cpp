@@ -29,7 +29,7 @@ report::Scene record(const LoadedScene& loaded) {
                        .generator = loaded.generator,
                        .size = loaded.size,
                        .form = loaded.form,
-                       .objects = scene.size(),
+                       .objects = scene.numbers(),
                        .hash = scene_hash(scene),
                        .stiffness = stiffness(scene)};
   for (std::size_t kind = 0; kind < kObjectKindNames.size(); ++kind)
@@ -40,8 +40,13 @@ report::Scene record(const LoadedScene& loaded) {
                   {"reflected_rays", needs.reflected_rays},
                   {"refracted_rays", needs.refracted_rays},
                   {"curved_objects", needs.curved_objects},
-                  {"triangles_only", needs.triangles_only}};
+                  {"triangles_only", needs.triangles_only},
+                  {"placed_parts", needs.placed_parts},
+                  {"motion", needs.motion}};
   for (const LeftOut& line : left_out(needs)) result.left_out.push_back({line.what, line.why});
+  if (needs.placed_parts)
+    result.left_out.push_back(
+        {"grading against exact arithmetic", "rays are rounded on their way into placed parts"});
   return result;
 }
 

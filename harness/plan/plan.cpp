@@ -96,7 +96,7 @@ bool matches(const Exclusion& exclusion, const CellFacts& cell) {
   return matches(exclusion.scene, cell.scene.id) && matches(exclusion.rays, cell.rays.id) &&
          either(cell.technique.entry->info.id, cell.technique.spec) &&
          matches(exclusion.scalar, cell.scalar) && matches(exclusion.intersector, cell.intersector) &&
-         (exclusion.objects_over == 0 || cell.scene.size() > exclusion.objects_over) &&
+         (exclusion.objects_over == 0 || cell.scene.numbers() > exclusion.objects_over) &&
          (exclusion.rays_over == 0 || cell.ray_count > exclusion.rays_over);
 }
 
@@ -105,10 +105,13 @@ std::string beyond_technique(const CellFacts& cell) {
   const TechniqueEntry& entry = *cell.technique.entry;
   if (!(cell.scalar == "float" ? entry.supports<float>() : entry.supports<double>()))
     return fmt::format("{} does not trace in {}", entry.info.id, cell.scalar);
+  if (!cell.scene.placements.empty() && !entry.searches_parts())
+    return fmt::format("{} does not search placed parts", entry.info.id);
   if (entry.info.max_practical_objects == UINT64_MAX) return {};
   const double limit = static_cast<double>(entry.info.max_practical_objects);
-  const double objects = static_cast<double>(cell.scene.size()), rays = static_cast<double>(cell.ray_count);
-  if (objects > limit) return fmt::format("{} objects; {:g} are practical", cell.scene.size(), limit);
+  const double objects = static_cast<double>(cell.scene.numbers()),
+               rays = static_cast<double>(cell.ray_count);
+  if (objects > limit) return fmt::format("{} objects; {:g} are practical", cell.scene.numbers(), limit);
   if (objects * rays > limit * kPracticalRays)
     return fmt::format("{:.1e} pairs of ray and object; {:.1e} are practical", objects * rays,
                        limit * kPracticalRays);

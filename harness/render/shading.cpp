@@ -9,6 +9,7 @@
 #include "harness/render/eye_rays.h"
 #include "scenes/rays/optics.h"
 #include "scenes/rays/ray_tree.h"
+#include "scenes/rays/times.h"
 
 namespace rayshoot {
 
@@ -67,9 +68,7 @@ class TreeShader {
     bool refracts = false;
   };
 
-  const Material& material(const Encounter& met) const {
-    return scene_.materials[scene_.objects[met.object].material];
-  }
+  const Material& material(const Encounter& met) const { return scene_.material_of(met.object); }
 
   void add_light(const Sight& sight, const Vec3d& colour) { light_[sight.pixel] += colour * sight.weight; }
 
@@ -132,8 +131,9 @@ class TreeShader {
 void shade(Image& image, const Rows& rows, const Scene& scene, const Tracer& tracer, int samples) {
   const int width = image.width();
   TreeShader shader(scene, static_cast<std::size_t>(rows.last - rows.first) * width, samples * samples);
-  grow_ray_trees(scene, tracer, ray_tree_rules("clean"),
-                 eye_rays(scene.view, width, image.height(), rows, samples),
+  std::vector<Ray<double>> rays = eye_rays(scene.view, width, image.height(), rows, samples);
+  set_times(rays, scene, static_cast<std::uint64_t>(rows.first));
+  grow_ray_trees(scene, tracer, ray_tree_rules("clean"), std::move(rays),
                  [&](const Wave& wave) { shader.add(wave); });
   for (std::size_t pixel = 0; pixel < shader.light().size(); ++pixel)
     image.at(static_cast<int>(pixel % width), rows.first + static_cast<int>(pixel / width)) =

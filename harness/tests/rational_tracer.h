@@ -48,6 +48,8 @@ class RationalTracer {
         return on_sphere(geometry_.sphere(object));
       case ObjectKind::cone:
         return on_cone(geometry_.cone(object));
+      case ObjectKind::placed:
+        break;
     }
     return std::nullopt;
   }

@@ -13,6 +13,8 @@ namespace {
 /// Contradictions between a technique and the reference that are decided ray by ray; further ones count as
 /// wrong.
 constexpr int kSettledRays = 50;
+/// The share of a ray's exhaustive search that is affordable below which none is searched so, unless techniques disagree.
+constexpr double kHopeless = 0.5;
 /// Relative difference in distance up to which an object test of another design is right.
 constexpr double kGradedTolerance = 1e-3;
 
@@ -36,10 +38,12 @@ Oracle<Real>::Oracle(const Geometry<Real>& geometry, const Batch<Real>& batch, d
       reference_(kExhaustiveTechnique),
       hits_(batch.rays.size()),
       checked_(batch.rays.size()) {
-  const double affordable = check_tests / std::max(1.0, static_cast<double>(geometry.size()));
+  const double affordable = check_tests / std::max(1.0, static_cast<double>(geometry.numbers()));
   const std::size_t rays = batch.rays.size();
+  // A ray at least, but for scenes of so many placed objects that one alone takes minutes.
+  const double least = affordable < kHopeless ? 0 : 1;
   const auto sample_size =
-      static_cast<std::size_t>(std::clamp(affordable, 1.0, std::max(1.0, static_cast<double>(rays))));
+      static_cast<std::size_t>(std::clamp(affordable, least, std::max(1.0, static_cast<double>(rays))));
   if (sample_size < rays) {
     reference_ = kReferenceTechnique;
     const auto engine = build_default(kReferenceTechnique, geometry);

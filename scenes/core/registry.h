@@ -25,6 +25,8 @@ struct SceneGenerator {
   std::vector<Parameter> parameters;
   /// Number of objects in the given form, computed without generating: guards against sizes that cannot fit.
   double (*object_count)(const SceneOptions& options, const Arguments& arguments);
+  /// How many of them are stored, where parts are placed more than once; all elsewhere.
+  double (*stored_objects)(const SceneOptions& options, const Arguments& arguments) = nullptr;
   void (*generate)(const SceneOptions& options, const Arguments& arguments, SceneBuilder& builder);
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <span>
 
 #include "scenes/core/digest.h"
@@ -21,7 +22,29 @@ const Vec3d& Scene::vertex(std::uint32_t object, std::uint32_t corner) const {
   return corner == 0 ? triangle.a : corner == 1 ? triangle.b : triangle.c;
 }
 
+const Material& Scene::material_of(std::uint32_t number) const {
+  const ObjectInPart found = object_in_part(*this, number);
+  return found.scene->materials[found.scene->objects[found.object].material];
+}
+
+namespace {
+
+using BoundsOfParts = std::map<const Scene*, Box<double>>;
+
+/// The bounds of a scene whose parts' bounds are known.
+Box<double> bounds_of(const Scene& scene, const BoundsOfParts& parts);
+
+}  // namespace
+
 Box<double> Scene::bounds() const {
+  BoundsOfParts parts;
+  for (const Scene* part : distinct_parts(*this)) parts.emplace(part, bounds_of(*part, parts));
+  return bounds_of(*this, parts);
+}
+
+namespace {
+
+Box<double> bounds_of_own(const Scene& scene) {
   Box<double> all;
   const auto include = [&](std::span<const Vec3d> points, const Box<double>& box) {
     if (std::all_of(points.begin(), points.end(), in_range<double>) && !box.empty()) all.include(box);
@@ -31,30 +54,81 @@ Box<double> Scene::bounds() const {
     for (const Vec3d& vertex : vertices) box.include(vertex);
     include(vertices, box);
   };
-  for (const auto& [a, b, c] : triangles) include_flat(std::array{a, b, c});
-  for (const VertexRange& range : polygons)
-    include_flat(std::span(polygon_vertices).subspan(range.first_vertex, range.vertex_count));
-  for (const Sphere<double>& sphere : spheres)
+  for (const auto& [a, b, c] : scene.triangles) include_flat(std::array{a, b, c});
+  for (const VertexRange& range : scene.polygons)
+    include_flat(std::span(scene.polygon_vertices).subspan(range.first_vertex, range.vertex_count));
+  for (const Sphere<double>& sphere : scene.spheres)
     include(std::array{sphere.centre, Vec3d{sphere.radius, 0, 0}}, exact_bounds(sphere));
-  for (const Cone<double>& cone : cones)
+  for (const Cone<double>& cone : scene.cones)
     include(std::array{cone.base, cone.apex, Vec3d{cone.base_radius, cone.apex_radius, 0}},
             exact_bounds(cone));
   return all;
 }
 
-std::array<std::size_t, 4> Scene::counts() const {
-  return {triangles.size(), polygons.size(), spheres.size(), cones.size()};
+Box<double> bounds_of(const Scene& scene, const BoundsOfParts& parts) {
+  Box<double> all = bounds_of_own(scene);
+  for (const Placement& placement : scene.placements) {
+    const Box<double> box = image(placement.scene_from_part, parts.at(placement.part.get()));
+    if (box.empty() || !in_range<double>(box.lo) || !in_range<double>(box.hi) ||
+        !in_range<double>(placement.velocity))
+      continue;
+    all.include(box);
+    all.include({box.lo + placement.velocity, box.hi + placement.velocity});
+  }
+  return all;
 }
 
-bool same_content(const Scene& a, const Scene& b) {
+}  // namespace
+
+ObjectCounts Scene::counts() const {
+  std::map<const Scene*, ObjectCounts> parts;
+  const auto counts_of = [&](const Scene& scene) {
+    ObjectCounts counts = {scene.triangles.size(), scene.polygons.size(), scene.spheres.size(),
+                           scene.cones.size(), scene.placements.size()};
+    for (const Placement& placement : scene.placements)
+      for (std::size_t kind = 0; kind < counts.size(); ++kind)
+        counts[kind] += parts.at(placement.part.get())[kind];
+    return counts;
+  };
+  for (const Scene* part : distinct_parts(*this)) parts.emplace(part, counts_of(*part));
+  return counts_of(*this);
+}
+
+namespace {
+
+bool same_own_content(const Scene& a, const Scene& b) {
   return a.background == b.background && a.view == b.view && a.lights == b.lights &&
          a.materials == b.materials && a.objects == b.objects && a.triangles == b.triangles &&
          a.polygons == b.polygons && a.polygon_vertices == b.polygon_vertices && a.spheres == b.spheres &&
          a.cones == b.cones && a.vertex_normals == b.vertex_normals;
 }
 
-std::string scene_hash(const Scene& scene) {
-  Digest digest;
+}  // namespace
+
+bool same_content(const Scene& a, const Scene& b) {
+  // Scenes are the same where their parts are, in the order in which they come up, and the same of these is placed.
+  const std::vector<const Scene*> parts_of_a = distinct_parts(a), parts_of_b = distinct_parts(b);
+  if (parts_of_a.size() != parts_of_b.size()) return false;
+  std::map<const Scene*, const Scene*> counterparts;
+  const auto same = [&](const Scene& one, const Scene& other) {
+    const auto same_placement = [&](const Placement& p, const Placement& q) {
+      return counterparts.at(p.part.get()) == q.part.get() && p.scene_from_part == q.scene_from_part &&
+             p.velocity == q.velocity;
+    };
+    return same_own_content(one, other) &&
+           std::equal(one.placements.begin(), one.placements.end(), other.placements.begin(),
+                      other.placements.end(), same_placement);
+  };
+  for (std::size_t i = 0; i < parts_of_a.size(); ++i) {
+    if (!same(*parts_of_a[i], *parts_of_b[i])) return false;
+    counterparts.emplace(parts_of_a[i], parts_of_b[i]);
+  }
+  return same(a, b);
+}
+
+namespace {
+
+void add_own_content(Digest& digest, const Scene& scene) {
   const View& view = scene.view;
   digest.add(scene.background), digest.add(view.from), digest.add(view.at), digest.add(view.up);
   digest.add(std::array{view.angle, view.hither}), digest.add(std::array{view.width, view.height});
@@ -68,7 +142,23 @@ std::string scene_hash(const Scene& scene) {
   digest.add_all(scene.triangles), digest.add_all(scene.polygons), digest.add_all(scene.polygon_vertices);
   digest.add_all(scene.spheres), digest.add_all(scene.cones), digest.add_all(scene.vertex_normals);
   for (const Material& material : scene.materials) digest.add(material);
-  return digest.hex();
+}
+
+}  // namespace
+
+std::string scene_hash(const Scene& scene) {
+  std::map<const Scene*, std::uint64_t> parts;
+  const auto digest_of = [&](const Scene& one) {
+    Digest digest;
+    add_own_content(digest, one);
+    for (const Placement& placement : one.placements) {
+      digest.add(parts.at(placement.part.get()));
+      digest.add(placement.scene_from_part), digest.add(placement.velocity);
+    }
+    return digest;
+  };
+  for (const Scene* part : distinct_parts(scene)) parts.emplace(part, digest_of(*part).value());
+  return digest_of(scene).hex();
 }
 
 namespace {
@@ -115,9 +205,7 @@ Vec3d cone_normal(const Cone<double>& cone, const Vec3d& point) {
   return normalized(normalized(aside) + axis * ((cone.base_radius - cone.apex_radius) / height));
 }
 
-}  // namespace
-
-Vec3d surface_normal(const Scene& scene, std::uint32_t object, const Vec3d& point, bool smooth) {
+Vec3d own_normal(const Scene& scene, std::uint32_t object, const Vec3d& point, bool smooth) {
   const SceneObject& entry = scene.objects[object];
   switch (entry.kind) {
     case ObjectKind::sphere:
@@ -129,6 +217,13 @@ Vec3d surface_normal(const Scene& scene, std::uint32_t object, const Vec3d& poin
   }
   const bool interpolate = smooth && entry.first_normal != kNoObject;
   return interpolate ? smooth_normal(scene, object, point) : flat_normal(scene, object);
+}
+
+}  // namespace
+
+Vec3d surface_normal(const Scene& scene, std::uint32_t number, const Vec3d& point, bool smooth, double time) {
+  const ObjectInPart found = object_in_part(scene, number, point, time);
+  return found.normal_outside(own_normal(*found.scene, found.object, found.point, smooth));
 }
 
 }  // namespace rayshoot

@@ -5,14 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "scenes/core/placement.h"
 #include "scenes/geometry/cone.h"
 #include "scenes/geometry/sphere.h"
 #include "scenes/geometry/triangle.h"
 
 namespace rayshoot {
 
-enum class ObjectKind : std::uint8_t { triangle, polygon, sphere, cone };
-inline constexpr std::array kObjectKindNames = {"triangle", "polygon", "sphere", "cone"};
+/// `placed` is a part that is placed in the scene as one object.
+enum class ObjectKind : std::uint8_t { triangle, polygon, sphere, cone, placed };
+inline constexpr std::array kObjectKindNames = {"triangle", "polygon", "sphere", "cone", "placed"};
+using ObjectCounts = std::array<std::size_t, kObjectKindNames.size()>;
 
 /// An NFF material: `f red green blue Kd Ks Shine T index_of_refraction`.
 struct Material {
@@ -92,24 +95,37 @@ struct Scene {
   std::vector<Vec3d> polygon_vertices;
   std::vector<Sphere<double>> spheres;
   std::vector<Cone<double>> cones;
+  std::vector<Placement> placements;
   /// Vertex normals of smooth objects, as given: not necessarily of unit length.
   std::vector<Vec3d> vertex_normals;
   /// The modeller's hierarchy, whose first group is the whole scene; none where the modeller stated none, as in a file.
   /// No part of a scene's content: files do not hold it.
   std::vector<Group> groups;
 
+  /// The number of each object's first and, behind the last object, of all, where some object is placed; empty elsewhere.
+  /// Numbers count the objects of a placed part one by one, at every depth; where nothing is placed they are positions.
+  std::vector<std::uint32_t> first_numbers;
+
   std::size_t size() const { return objects.size(); }
+  /// How many objects there are, those of placed parts included.
+  std::size_t numbers() const { return first_numbers.empty() ? objects.size() : first_numbers.back(); }
+  std::uint32_t first_number(std::uint32_t object) const {
+    return first_numbers.empty() ? object : first_numbers[object];
+  }
+  const Material& material_of(std::uint32_t number) const;
 
   /// Number of vertices of object `object`, which must be a triangle or a polygon.
   std::uint32_t vertex_count(std::uint32_t object) const;
   /// Vertex `corner` of object `object`, which must be a triangle or a polygon.
   const Vec3d& vertex(std::uint32_t object, std::uint32_t corner) const;
-  /// The exact bounds of all objects in double precision, before any padding; objects that are not finite or
-  /// out of range are left out, as they are when tracing.
+  /// The exact bounds of all objects in double precision, before any padding, and over all times; of a placed part the box
+  /// about its box. Objects that are not finite or out of range are left out, as they are when tracing.
   Box<double> bounds() const;
-  /// Number of objects of each kind, indexed by `ObjectKind`.
-  std::array<std::size_t, 4> counts() const;
+  /// Number of objects of each kind, indexed by `ObjectKind`, those of placed parts included.
+  ObjectCounts counts() const;
 };
+
+inline const std::vector<Placement>& placements_of(const Scene& scene) { return scene.placements; }
 
 /// Same content, whatever the name: what a written file must read back to.
 bool same_content(const Scene& a, const Scene& b);
@@ -117,9 +133,10 @@ bool same_content(const Scene& a, const Scene& b);
 /// Order-sensitive digest of a scene's content, as 16 hexadecimal digits.
 std::string scene_hash(const Scene& scene);
 
-/// Outward unit normal of `object` at `point`: of the surface, or interpolated between vertex normals where
-/// `smooth` is set and the object has them. Polygons and triangles point where their vertices run
+/// Outward unit normal of the object of that number at `point` and a time: of the surface, or interpolated between vertex
+/// normals where `smooth` is set and the object has them. Polygons and triangles point where their vertices run
 /// counter-clockwise.
-Vec3d surface_normal(const Scene& scene, std::uint32_t object, const Vec3d& point, bool smooth = true);
+Vec3d surface_normal(const Scene& scene, std::uint32_t number, const Vec3d& point, bool smooth = true,
+                     double time = 0);
 
 }  // namespace rayshoot

@@ -1,7 +1,12 @@
 #include "scenes/core/scene_builder.h"
 
+#include <fmt/format.h>
+
+#include <map>
 #include <memory>
 #include <numbers>
+
+#include "scenes/core/spec.h"
 
 namespace rayshoot {
 
@@ -70,7 +75,26 @@ void SceneBuilder::close_group() {
   open_groups_.pop_back();
 }
 
+namespace {
+
+/// Number the objects of placed parts one by one.
+void number_objects(Scene& scene) {
+  if (scene.placements.empty()) return;
+  std::uint64_t number = 0;
+  for (const SceneObject& object : scene.objects) {
+    scene.first_numbers.push_back(static_cast<std::uint32_t>(number));
+    number += object.kind == ObjectKind::placed ? scene.placements[object.index].part->numbers() : 1;
+    if (number >= kNoObject)
+      throw InputError(fmt::format(
+          "more than {} objects, those of placed parts included: choose a smaller size", kNoObject - 1));
+  }
+  scene.first_numbers.push_back(static_cast<std::uint32_t>(number));
+}
+
+}  // namespace
+
 Scene SceneBuilder::finish() && {
+  number_objects(scene_);
   if (!scene_.groups.empty())
     scene_.groups.front() = {0, static_cast<std::uint32_t>(scene_.size()),
                              static_cast<std::uint32_t>(scene_.groups.size())};
@@ -116,6 +140,12 @@ void SceneBuilder::cone(const Vec3d& base, double base_radius, const Vec3d& apex
   if (options_.form == SceneForm::patches) return tessellate_cone({base, base_radius, apex, apex_radius});
   add_object(ObjectKind::cone, scene_.cones.size());
   scene_.cones.push_back({frame_(base), scale_ * base_radius, frame_(apex), scale_ * apex_radius});
+}
+
+void SceneBuilder::place(std::shared_ptr<const Scene> part, const Affine& scene_from_part,
+                         const Vec3d& velocity) {
+  add_object(ObjectKind::placed, scene_.placements.size());
+  scene_.placements.push_back({std::move(part), scene_from_part, velocity});
 }
 
 void SceneBuilder::placed_patch(const std::array<Vec3d, 3>& vertices, const std::array<Vec3d, 3>& normals) {
@@ -185,7 +215,12 @@ void SceneBuilder::tessellate_cone(const Cone<double>& cone) {
   }
 }
 
-Scene tessellated(const Scene& scene, int tessellation) {
+namespace {
+
+/// By scenes, what their tessellated parts are.
+using TessellatedParts = std::map<const Scene*, std::shared_ptr<const Scene>>;
+
+Scene tessellated(const Scene& scene, int tessellation, const TessellatedParts& parts) {
   SceneBuilder builder({.form = SceneForm::patches, .tessellation = tessellation});
   builder.background(scene.background);
   builder.view(scene.view);
@@ -193,15 +228,29 @@ Scene tessellated(const Scene& scene, int tessellation) {
   GroupsAgain groups(scene, builder);
   for (std::uint32_t object = 0; object < scene.size(); ++object) {
     groups.before(object);
-    const std::uint32_t material = scene.objects[object].material;
-    if (object == 0 || material != scene.objects[object - 1].material)
-      builder.material(scene.materials[material]);
-    add_again(builder, scene, object);
+    const SceneObject& entry = scene.objects[object];
+    if (object == 0 || entry.material != scene.objects[object - 1].material)
+      builder.material(scene.materials[entry.material]);
+    if (entry.kind == ObjectKind::placed) {
+      const Placement& placement = scene.placements[entry.index];
+      builder.place(parts.at(placement.part.get()), placement.scene_from_part, placement.velocity);
+    } else {
+      add_again(builder, scene, object);
+    }
     groups.behind(object);
   }
   Scene result = std::move(builder).finish();
   result.id = scene.id;
   return result;
+}
+
+}  // namespace
+
+Scene tessellated(const Scene& scene, int tessellation) {
+  TessellatedParts parts;
+  for (const Scene* part : distinct_parts(scene))
+    parts.emplace(part, std::make_shared<const Scene>(tessellated(*part, tessellation, parts)));
+  return tessellated(scene, tessellation, parts);
 }
 
 double patches_of_sphere(const SceneOptions& options) {

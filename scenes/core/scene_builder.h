@@ -42,6 +42,9 @@ class SceneBuilder {
   void sphere(const Vec3d& centre, double radius);
   void cone(const Vec3d& base, double base_radius, const Vec3d& apex, double apex_radius);
 
+  /// A part, which stands there at the time 0 and moves by `velocity` until the time 1.
+  void place(std::shared_ptr<const Scene> part, const Affine& scene_from_part, const Vec3d& velocity = {});
+
   /// Spheres and cones that follow are given, and tessellated, in a frame of their own, which `frame` maps
   /// into the scene: a rotation and translation together with a scaling by `scale`. Vertex normals map by the
   /// inverse transposed and are not normalised again, so they end up 1/scale long. Only jacks asks for this.
@@ -62,6 +65,7 @@ class SceneBuilder {
   };
   [[nodiscard]] GroupScope group() { return GroupScope(*this); }
 
+  /// Throws InputError where parts are placed so often that their objects cannot be numbered.
   Scene finish() &&;
 
  private:
@@ -80,7 +84,7 @@ class SceneBuilder {
   std::vector<std::uint32_t> open_groups_;
 };
 
-/// The same scene with every sphere and cone replaced by the triangles that SPD's resolution `tessellation`
+/// The same scene with every sphere and cone, also in parts, replaced by the triangles that SPD's resolution `tessellation`
 /// makes of it. (jacks tessellates in a way of its own, so ask its generator for patches instead.)
 Scene tessellated(const Scene& scene, int tessellation);
 

@@ -1,5 +1,7 @@
 #include "scenes/core/stiffness.h"
 
+#include <map>
+
 #include "scenes/core/geometry.h"
 
 namespace rayshoot {
@@ -41,20 +43,40 @@ double feature(const Geometry<double>& geometry, std::uint32_t object) {
       return 2 * geometry.sphere(object).radius;
     case ObjectKind::cone:
       return feature(geometry.cone(object));
+    case ObjectKind::placed:
+      break;
   }
   return kMiss<double>;
+}
+
+using FeaturesOfParts = std::map<const Geometry<double>*, double>;
+
+/// A part's smallest feature where it is placed: it shrinks by what the way into the part stretches the most along an axis.
+double feature(const Placed<double>& placed, const FeaturesOfParts& parts) {
+  const Affine& inward = placed.part_from_scene;
+  return parts.at(placed.part.get()) / std::max({size_of(inward.x), size_of(inward.y), size_of(inward.z)});
+}
+
+/// The smallest feature of a scene whose parts' are known; infinite where there is none.
+double smallest_feature(const Geometry<double>& geometry, const FeaturesOfParts& parts) {
+  double smallest = kMiss<double>;
+  for (std::uint32_t object = 0; object < geometry.size(); ++object) {
+    const double size = geometry.kind(object) == ObjectKind::placed ? feature(geometry.placed(object), parts)
+                                                                    : feature(geometry, object);
+    if (size > 0) smallest = std::min(smallest, size);
+  }
+  return smallest;
 }
 
 }  // namespace
 
 std::optional<double> smallest_feature(const Scene& scene) {
   const Geometry<double> geometry(scene);
-  std::optional<double> smallest;
-  for (std::uint32_t object = 0; object < geometry.size(); ++object) {
-    const double size = feature(geometry, object);
-    if (size > 0) smallest = std::min(smallest.value_or(size), size);
-  }
-  return smallest;
+  FeaturesOfParts parts;
+  for (const Geometry<double>* part : geometry.distinct_parts())
+    parts.emplace(part, smallest_feature(*part, parts));
+  const double smallest = smallest_feature(geometry, parts);
+  return smallest == kMiss<double> ? std::nullopt : std::optional(smallest);
 }
 
 std::optional<double> stiffness(const Scene& scene) {

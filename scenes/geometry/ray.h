@@ -22,6 +22,8 @@ struct Ray {
   Real t_min = 0;
   Vec3<Real> direction;
   Real t_max = std::numeric_limits<Real>::max();
+  /// When, from 0 to 1; it matters where something moves.
+  Real time = 0;
 
   Vec3<Real> at(Real t) const { return origin + direction * t; }
   friend bool operator==(const Ray&, const Ray&) = default;

@@ -15,8 +15,8 @@ namespace rayshoot {
 
 namespace {
 
-/// Objects are numbered in 30 bits where a technique refers to them together with their kind.
-constexpr double kMostObjects = 1u << 30;
+/// Objects are numbered in 29 bits where a technique refers to them together with their kind.
+constexpr double kMostObjects = 1u << 29;
 
 /// A triangle with vertex normals takes 160 bytes of a scene, growing vectors half as much again, and the
 /// same triangle compiled for tracing in double precision 80.
@@ -91,6 +91,13 @@ struct Recipe {
   std::string id;
 };
 
+/// Throws InputError unless the objects, those of placed parts one by one, can be numbered.
+void check_numbers(const std::string& id, double objects) {
+  if (objects >= kNoObject)
+    throw InputError(fmt::format("{} would have {:.3g} objects; hits tell at most {:.3g} apart", id, objects,
+                                 static_cast<double>(kNoObject)));
+}
+
 Recipe resolve(const Spec& spec, std::optional<int> tessellation) {
   const SceneGenerator& generator = find_generator(spec.name);
   const std::vector<Parameter> parameters = parameters_of(generator);
@@ -100,7 +107,9 @@ Recipe resolve(const Spec& spec, std::optional<int> tessellation) {
                              .form = patches ? SceneForm::patches : SceneForm::curves,
                              .tessellation = static_cast<int>(arguments.integer("tessellation"))};
   const std::string id = canonical_id(spec.name, parameters, arguments);
-  check_object_count(id, generator.object_count(options, arguments), physical_memory());
+  const auto stored = generator.stored_objects ? generator.stored_objects : generator.object_count;
+  check_object_count(id, stored(options, arguments), physical_memory());
+  check_numbers(id, generator.object_count(options, arguments));
   return {generator, arguments, options, id};
 }
 

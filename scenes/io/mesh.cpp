@@ -373,6 +373,7 @@ Scene read_mesh(const std::string& path) {
 
 void write_mesh(const Scene& scene, const std::string& path, int tessellation) {
   const std::string format = format_of(path);
+  require_nothing_placed(scene, path);
   const bool curved = !scene.spheres.empty() || !scene.cones.empty();
   // STL has triangles only; a PLY file counts a face's vertices in one byte.
   const std::size_t most_corners = format == "stl" ? 3 : 255;
@@ -393,7 +394,8 @@ void write_mesh(const Scene& scene, const std::string& path, int tessellation) {
 }
 
 std::optional<MeshTopology> topology_of(const Scene& scene) {
-  if (scene.objects.empty() || !scene.spheres.empty() || !scene.cones.empty()) return std::nullopt;
+  if (scene.objects.empty() || !scene.spheres.empty() || !scene.cones.empty() || !scene.placements.empty())
+    return std::nullopt;
   const FaceList list = faces_of(scene, std::numeric_limits<std::size_t>::max());
   HalfEdgeMesh mesh;
   MeshTopology topology{.faces = list.faces(), .vertices = list.vertices.size()};

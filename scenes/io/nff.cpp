@@ -280,6 +280,7 @@ void write_nff(const Scene& scene, std::ostream& out, int precision) {
   if (precision < 1 || precision > kFullPrecision)
     throw InputError(
         fmt::format("a precision of {} digits is not accepted; 1 to {} are", precision, kFullPrecision));
+  require_nothing_placed(scene, "NFF");
   NffWriter(out, precision).write(scene);
 }
 

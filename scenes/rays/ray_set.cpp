@@ -6,7 +6,11 @@ namespace rayshoot {
 
 std::string RaySet::hash() const {
   Digest digest;
-  digest.add_all(rays);
+  for (const Ray<double>& ray : rays)
+    digest.add(ray.origin), digest.add(ray.t_min), digest.add(ray.direction), digest.add(ray.t_max);
+  // Where nothing moves, times say nothing.
+  if (std::any_of(rays.begin(), rays.end(), [](const Ray<double>& ray) { return ray.time != 0; }))
+    for (const Ray<double>& ray : rays) digest.add(ray.time);
   digest.add(static_cast<std::uint64_t>(closest_rays));
   return digest.hex();
 }
@@ -26,6 +30,7 @@ template <class Real>
 Ray<Real> rounded(const Ray<double>& ray, const RayOrigin& origin) {
   if constexpr (std::is_same_v<Real, double>) return ray;
   Ray<Real> result{Vec3<Real>(ray.origin), static_cast<Real>(ray.t_min), Vec3<Real>(ray.direction)};
+  result.time = static_cast<Real>(ray.time);
   if (ray.t_max < std::numeric_limits<Real>::max()) result.t_max = static_cast<Real>(ray.t_max);
   if (origin.source_object != kNoObject)
     result.t_min = std::max(result.t_min, rounding_along<Real>(ray.origin, ray.origin, origin.cosine));

@@ -28,10 +28,11 @@ std::vector<Encounter> encounters_of(const Scene& scene, const Tracer& tracer, c
     if (hits[i].object == kNoObject) continue;
     Encounter& met = encounters[i];
     met.object = hits[i].object;
+    met.time = rays[i].time;
     met.point = rays[i].at(hits[i].t);
-    met.outward = outward_normal(rules, scene, met.object, met.point);
+    met.outward = outward_normal(rules, scene, met.object, met.point, met.time);
     met.normal = rules.normals_face_the_ray ? facing(met.outward, rays[i].direction) : met.outward;
-    met.flat = facing(surface_normal(scene, met.object, met.point, false), rays[i].direction);
+    met.flat = facing(surface_normal(scene, met.object, met.point, false, met.time), rays[i].direction);
   }
   return encounters;
 }
@@ -53,7 +54,7 @@ class Caster {
       const Vec3d to_light = scene_.lights[light].position - met.point;
       if (!(dot(met.normal, to_light) > 0)) continue;
       const double distance = length(to_light);
-      Ray<double> ray = ray_from(met.point, to_light * (1 / distance));
+      Ray<double> ray = ray_from(met, to_light * (1 / distance));
       ray.t_max = distance;
       wave.shadow_rays.add(ray, origin(wave, parent, RayKind::shadow, ray, static_cast<std::int32_t>(light)),
                            parent);
@@ -63,10 +64,10 @@ class Caster {
   /// The reflected and the refracted ray, as the material asks for them.
   void cast_secondary_rays(Wave& wave, std::uint32_t parent, RayBatch& next) const {
     const Encounter& met = wave.encounters[parent];
-    const Material& material = scene_.materials[scene_.objects[met.object].material];
+    const Material& material = scene_.material_of(met.object);
     const Vec3d& incoming = wave.rays.rays[parent].direction;
     const auto cast = [&](RayKind kind, const Vec3d& direction) {
-      const Ray<double> ray = ray_from(met.point, direction);
+      const Ray<double> ray = ray_from(met, direction);
       next.add(ray, origin(wave, parent, kind, ray), parent);
     };
     if (material.reflects()) cast(RayKind::reflected, reflected(incoming, met.outward));
@@ -78,8 +79,11 @@ class Caster {
   }
 
  private:
-  Ray<double> ray_from(const Vec3d& point, const Vec3d& direction) const {
-    return {.origin = point, .t_min = first_distance(rules_, diagonal_, point), .direction = direction};
+  Ray<double> ray_from(const Encounter& met, const Vec3d& direction) const {
+    return {.origin = met.point,
+            .t_min = first_distance(rules_, diagonal_, met.point),
+            .direction = direction,
+            .time = met.time};
   }
 
   static RayOrigin origin(const Wave& wave, std::uint32_t parent, RayKind kind, const Ray<double>& ray,

@@ -19,7 +19,8 @@ struct RayBatch {
 
 /// Where a ray met a surface.
 struct Encounter {
-  std::uint32_t object = kNoObject;  ///< `kNoObject` where the ray met nothing
+  std::uint32_t object = kNoObject;  ///< its number; `kNoObject` where the ray met nothing
+  double time = 0;                   ///< of the ray
   Vec3d point;
   Vec3d outward;  ///< unit normal, smooth where the object has vertex normals
   Vec3d normal;   ///< the same on the side that is lit, by the rules

@@ -42,14 +42,16 @@ Vec3d normal_tilted_by_base(const Cone<double>& cone, const Vec3d& point) {
 
 }  // namespace
 
-Vec3d outward_normal(const RayTreeRules& rules, const Scene& scene, std::uint32_t object,
-                     const Vec3d& point) {
-  const SceneObject& entry = scene.objects[object];
+Vec3d outward_normal(const RayTreeRules& rules, const Scene& scene, std::uint32_t number, const Vec3d& point,
+                     double time) {
+  const ObjectInPart met = object_in_part(scene, number, point, time);
+  const SceneObject& entry = met.scene->objects[met.object];
   const bool tilted = entry.kind == ObjectKind::cone && rules.tilts_cone_normals_by_base;
   const Vec3d normal =
-      tilted ? normal_tilted_by_base(scene.cones[entry.index], point) : surface_normal(scene, object, point);
+      tilted ? met.normal_outside(normal_tilted_by_base(met.scene->cones[entry.index], met.point))
+             : surface_normal(scene, number, point, true, time);
   if (is_finite(normal)) return normal;
-  const Vec3d flat = surface_normal(scene, object, point, false);
+  const Vec3d flat = surface_normal(scene, number, point, false, time);
   return is_finite(flat) ? flat : Vec3d{0, 0, 1};
 }
 

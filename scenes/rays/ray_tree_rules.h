@@ -32,9 +32,10 @@ const std::vector<RayTreeRules>& all_ray_tree_rules();
 /// The rules of that id; throws InputError with the known ones otherwise.
 const RayTreeRules& ray_tree_rules(const std::string& id);
 
-/// Outward unit normal of an object, smooth where it has vertex normals; some unit vector for a broken
-/// object.
-Vec3d outward_normal(const RayTreeRules& rules, const Scene& scene, std::uint32_t object, const Vec3d& point);
+/// Outward unit normal of the object of that number at a time, smooth where it has vertex normals; some unit vector for a
+/// broken object.
+Vec3d outward_normal(const RayTreeRules& rules, const Scene& scene, std::uint32_t number, const Vec3d& point,
+                     double time = 0);
 
 /// Where a ray that starts on a surface begins to see: epsilon, less in scenes smaller than 1 across, and
 /// more than the rounding error of the origin. `scene_diagonal` is the length of the diagonal of the scene's

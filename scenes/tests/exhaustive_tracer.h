@@ -22,7 +22,7 @@ class ExhaustiveTracer final : public Tracer {
     Hit<double> hit;
     for (std::uint32_t object = 0; object < geometry_.size(); ++object)
       if (const double t = geometry_.hit_distance(object, ray); t < hit.t)
-        hit = {t, geometry_.scene_object(object)};
+        hit = {t, geometry_.scene_number(object)};
     return hit;
   }
 

@@ -49,7 +49,7 @@ std::vector<Hit<Real>> nearest_hits(const Geometry<Real>& geometry) {
     Hit<Real> nearest;
     for (std::uint32_t object = 0; object < geometry.size(); ++object) {
       const Real t = geometry.hit_distance(object, {.origin = {x, 0, 9}, .direction = {0, 0, -1}});
-      if (t < nearest.t) nearest = {t, geometry.scene_object(object)};
+      if (t < nearest.t) nearest = {t, geometry.scene_number(object)};
     }
     hits.push_back(nearest);
   }
@@ -159,7 +159,7 @@ TYPED_TEST(GeometryObjects, GarbageIsSetAsideWithAReasonAndTheGoodObjectsAreUnto
     const Geometry<Real> geometry(scene);
     ASSERT_EQ(geometry.size(), 4u) << k;
     ASSERT_EQ(geometry.set_aside().size(), 1u) << k;
-    EXPECT_EQ(geometry.set_aside()[0].scene_object, 0u) << k;
+    EXPECT_EQ(geometry.set_aside()[0].scene_number, 0u) << k;
     EXPECT_EQ(geometry.set_aside()[0].reason, kGarbage[k].reason) << k;
     EXPECT_EQ(geometry.bounds(), good.bounds()) << k;
     std::vector<Hit<Real>> expected = nearest_hits(good);
@@ -211,7 +211,7 @@ TYPED_TEST(GeometryObjects, ArrangedObjectsAreTheSameObjects) {
     ASSERT_EQ(arranged.size(), geometry.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) {
       EXPECT_EQ(arranged.kind(i), geometry.kind(order[i]));
-      EXPECT_EQ(arranged.scene_object(i), geometry.scene_object(order[i]));
+      EXPECT_EQ(arranged.scene_number(i), geometry.scene_number(order[i]));
       EXPECT_EQ(arranged.bounds(i), geometry.bounds(order[i]));
       for (const Real x : {0, 2, 4, 6}) {
         const Ray<Real> ray{.origin = {x, 0, 9}, .direction = {0, 0, -1}};

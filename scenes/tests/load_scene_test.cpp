@@ -91,7 +91,12 @@ TEST(LoadScene, EveryGeneratorMakesAsManyObjectsAsItSays) {
         const SceneOptions options{.size = size,
                                    .form = loaded.form == "patches" ? SceneForm::patches : SceneForm::curves};
         EXPECT_EQ(generator->object_count(options, Arguments(generator->parameters, {}, "")),
-                  loaded.scene.size())
+                  loaded.scene.numbers())
+            << loaded.scene.id;
+        if (!generator->stored_objects) continue;
+        std::size_t stored = loaded.scene.size();
+        for (const Scene* part : distinct_parts(loaded.scene)) stored += part->size();
+        EXPECT_EQ(generator->stored_objects(options, Arguments(generator->parameters, {}, "")), stored)
             << loaded.scene.id;
       }
 }
@@ -124,7 +129,7 @@ TEST(LoadScene, RefusesTessellationsThatAreNoneOrUseless) {
 TEST(LoadScene, RefusesScenesThatCannotFit) {
   EXPECT_THAT(refusal("balls:10"),
               AllOf(StartsWith("balls:10/curves would have 3.92e+09 objects and need about 1.17e+03 GiB"),
-                    HasSubstr("at most 1073741824")));
+                    HasSubstr("at most 536870912")));
   EXPECT_THAT(refusal("balls:1000000000"), HasSubstr("would have inf objects"));
   EXPECT_NO_THROW(check_object_count("scene", 1e6, 1e9));
   EXPECT_THAT([] { check_object_count("scene", 1e6, 2e8); },

@@ -70,6 +70,8 @@ Box<double> exact_bounds(const ExactContacts<Real>& contacts, std::uint32_t obje
       box.include(ball(geometry.cone(object).base, geometry.cone(object).base_radius));
       box.include(ball(geometry.cone(object).apex, geometry.cone(object).apex_radius));
       return box;
+    case ObjectKind::placed:
+      break;
   }
   return box;
 }

@@ -108,6 +108,8 @@ std::optional<Contact> ExactContacts<Real>::first(std::uint32_t object, const Ra
         const bool outside_only = geometry_.cone_sides() == ConeSides::outside;
         return find_on_cone<Number>(ray, geometry_.cone(object), outside_only);
       });
+    case ObjectKind::placed:
+      break;
   }
   return std::nullopt;
 }
@@ -127,6 +129,7 @@ Root<Number> ExactContacts<Real>::root(const Contact& contact, const Ray<Real>& 
     case ObjectKind::sphere:
       return quadratic_of(line, geometry_.sphere(object)).root(1, contact.side);
     case ObjectKind::cone:
+    case ObjectKind::placed:
       break;
   }
   const Quadratic<Number> quadratic = forms_of(line, geometry_.cone(object)).quadratic;

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "scenes/rays/distribution.h"
+#include "scenes/rays/times.h"
 
 namespace rayshoot {
 
@@ -53,6 +54,7 @@ RaySet generate(const RayRequest& request) {
   set.rays.reserve(set.closest_rays);
   for (std::size_t i = 0; i < set.closest_rays; ++i)
     set.rays.push_back(chord(sequence_point(i, shift), centre, radius));
+  set_times(set.rays, request.scene, request.seed);
   set.origins.assign(set.rays.size(), {.kind = RayKind::chord});
   return set;
 }

@@ -49,7 +49,7 @@ RaySet generate(const RayRequest& request) {
     const Encounter& from = points[order[ray % points.size()]];
     const Vec3d direction = cosine_direction(from.flat, random.uniform(ray, 0), random.uniform(ray, 1));
     const double start = first_distance(ray_tree_rules("clean"), diagonal, from.point);
-    set.rays.push_back({.origin = from.point, .t_min = start, .direction = direction});
+    set.rays.push_back({.origin = from.point, .t_min = start, .direction = direction, .time = from.time});
     set.origins.push_back({.kind = RayKind::diffuse,
                            .generation = 2,
                            .source_object = from.object,

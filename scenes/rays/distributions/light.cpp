@@ -17,6 +17,7 @@ namespace {
 struct LitPoint {
   std::int32_t light;
   Vec3d point, normal;
+  double time;
 };
 
 std::vector<LitPoint> points_facing_lights(const RayRequest& request) {
@@ -25,7 +26,7 @@ std::vector<LitPoint> points_facing_lights(const RayRequest& request) {
   for (std::size_t light = 0; light < request.scene.lights.size(); ++light)
     for (const Encounter& met : points)
       if (dot(met.normal, request.scene.lights[light].position - met.point) > 0)
-        lit.push_back({static_cast<std::int32_t>(light), met.point, met.flat});
+        lit.push_back({static_cast<std::int32_t>(light), met.point, met.flat, met.time});
   return lit;
 }
 
@@ -36,7 +37,8 @@ Ray<double> ray_to(const LitPoint& lit, const Scene& scene, double diagonal) {
   const double margin = first_distance(ray_tree_rules("clean"), diagonal, lit.point);
   return {.origin = light,
           .direction = (lit.point - light) * (1 / distance),
-          .t_max = std::max(0.0, distance - margin)};
+          .t_max = std::max(0.0, distance - margin),
+          .time = lit.time};
 }
 
 RaySet generate(const RayRequest& request) {

@@ -8,6 +8,7 @@
 
 #include "scenes/rays/distribution.h"
 #include "scenes/rays/random.h"
+#include "scenes/rays/times.h"
 
 namespace rayshoot {
 
@@ -33,6 +34,7 @@ RaySet generate(const RayRequest& request) {
   set.rays.reserve(set.closest_rays);
   for (std::size_t ray = 0; ray < set.closest_rays; ++ray)
     set.rays.push_back(ray_between_points(box, random, ray));
+  set_times(set.rays, request.scene, request.seed);
   set.origins.assign(set.rays.size(), {.kind = RayKind::point_pair});
   return set;
 }

@@ -12,9 +12,8 @@ namespace rayshoot {
 namespace {
 
 RaySet generate(const RayRequest& request) {
-  const auto resolution = static_cast<int>(request.arguments.integer("resolution"));
   RaySet set;
-  set.rays = pixel_rays(request.scene.view, resolution, ray_tree_rules("clean").grid);
+  set.rays = eye_rays_of(request, ray_tree_rules("clean"));
   set.origins.assign(set.rays.size(), {.kind = RayKind::primary});
   set.closest_rays = set.rays.size();
   set.counts.primary_rays = set.rays.size();

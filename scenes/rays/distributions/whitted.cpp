@@ -49,14 +49,12 @@ void count(const Wave& wave, RayCounts& counts) {
 
 RaySet generate(const RayRequest& request) {
   const RayTreeRules& rules = rules_of(request.arguments);
-  const auto resolution = static_cast<int>(request.arguments.integer("resolution"));
   RaySet set{.rules = rules.id}, shadow_rays;
-  grow_ray_trees(request.scene, request.tracer, rules, pixel_rays(request.scene.view, resolution, rules.grid),
-                 [&](const Wave& wave) {
-                   append(set, wave.rays);
-                   append(shadow_rays, wave.shadow_rays);
-                   count(wave, set.counts);
-                 });
+  grow_ray_trees(request.scene, request.tracer, rules, eye_rays_of(request, rules), [&](const Wave& wave) {
+    append(set, wave.rays);
+    append(shadow_rays, wave.shadow_rays);
+    count(wave, set.counts);
+  });
   set.closest_rays = set.rays.size();
   append(set, shadow_rays);
   return set;
