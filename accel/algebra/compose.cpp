@@ -89,14 +89,15 @@ TechniqueEntry compose(const Expression& expression) {
   return entry;
 }
 
-TechniqueEntry define_composition(TechniqueInfo info, std::size_t levels,
-                                  const std::function<std::string(const Arguments&)>& expression) {
+TechniqueEntry define_composition(
+    TechniqueInfo info, std::size_t levels,
+    const std::function<std::string(const Arguments&, std::uint32_t objects)>& expression) {
   info.events = Composed<float>::events(levels);
   TechniqueEntry entry{.info = std::move(info)};
-  set_builders(entry,
-               [expression]<class Real>(const OptimizerInput<Real>& input, const Arguments& arguments) {
-                 return build(parse_expression(expression(arguments), technique_entries()), input);
-               });
+  set_builders(entry, [expression]<class Real>(const OptimizerInput<Real>& input,
+                                               const Arguments& arguments) {
+    return build(parse_expression(expression(arguments, input.geometry.size()), technique_entries()), input);
+  });
   return entry;
 }
 

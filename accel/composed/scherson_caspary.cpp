@@ -33,7 +33,7 @@ const TechniqueEntry& technique_scherson_caspary() {
                                         "an octree leaf with at most so many objects keeps its plain list"),
                       choice_parameter("plane_sets", "3", {"3", "5", "7", "9", "13"},
                                        "slabs of the bounding volumes")}},
-      2, [](const Arguments& arguments) {
+      2, [](const Arguments& arguments, std::uint32_t) {
         return fmt::format(
             "sequential(octree_revelles(max_depth={},max_objects={},assignment=box),bvh_kay_kajiya(plane_"
             "sets={}),until={})",

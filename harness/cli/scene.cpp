@@ -75,12 +75,15 @@ Json statistics(const LoadedScene& loaded) {
   return json;
 }
 
-/// "1 polygon, 91 spheres".
+/// "1 polygon, 91 spheres, 2 placed parts".
 std::string kinds_in_words(const Scene& scene) {
   std::vector<std::string> words;
   for (std::size_t kind = 0; kind < kObjectKindNames.size(); ++kind)
-    if (const std::size_t count = scene.counts()[kind]; count > 0)
-      words.push_back(fmt::format("{} {}{}", count, kObjectKindNames[kind], count == 1 ? "" : "s"));
+    if (const std::size_t count = scene.counts()[kind]; count > 0) {
+      std::string name = kObjectKindNames[kind];
+      std::replace(name.begin(), name.end(), '_', ' ');
+      words.push_back(fmt::format("{} {}{}", count, name, count == 1 ? "" : "s"));
+    }
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
 }
 

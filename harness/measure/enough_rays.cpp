@@ -49,7 +49,7 @@ class CountedTechniques {
     for (const TechniqueChoice& technique : plan.techniques) {
       if (technique.entry->info.needs_recorded_hits || !is_planned(technique, scene.id)) continue;
       if (!technique.entry->supports<Real>() ||
-          geometry_.size() > technique.entry->info.max_practical_objects)
+          geometry_.numbers() > technique.entry->info.max_practical_objects)
         continue;
       Built<Real> built = build_once<Real>(technique, geometry_, nullptr, {});
       if (built.engine && built.engine->countable()) techniques_.push_back(std::move(built));
@@ -60,7 +60,7 @@ class CountedTechniques {
     const Batch<Real> batch(set);
     double worst = 0;
     for (const Built<Real>& built : techniques_)
-      worst = std::max(worst, relative_m_error(*built.engine, batch, geometry_.size(), threads));
+      worst = std::max(worst, relative_m_error(*built.engine, batch, geometry_.numbers(), threads));
     return worst;
   }
 

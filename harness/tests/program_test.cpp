@@ -111,7 +111,8 @@ TEST(Listings, DescribeAScene) {
   EXPECT_EQ(scene.at("size"), 2);
   EXPECT_EQ(scene.at("form"), "curves");
   EXPECT_EQ(scene.at("objects"), 92);
-  EXPECT_EQ(scene.at("counts"), (json{{"triangle", 0}, {"polygon", 1}, {"sphere", 91}, {"cone", 0}}));
+  EXPECT_EQ(scene.at("counts"),
+            (json{{"triangle", 0}, {"polygon", 1}, {"sphere", 91}, {"cone", 0}, {"placed_part", 0}}));
   EXPECT_THAT(scene.at("bounds").at("min"), ElementsAre(-12, -12, -0.5));
   EXPECT_NEAR(scene.at("bounds").at("max")[2], 0.785071794692558, 1e-9);
   EXPECT_EQ(scene.at("lights"), 3);
@@ -121,7 +122,9 @@ TEST(Listings, DescribeAScene) {
                                      {"reflected_rays", true},
                                      {"refracted_rays", false},
                                      {"curved_objects", true},
-                                     {"triangles_only", false}}));
+                                     {"triangles_only", false},
+                                     {"placed_parts", false},
+                                     {"motion", false}}));
   for (const json& line : scene.at("left_out")) EXPECT_THAT(members(line), ElementsAre("what", "why"));
   EXPECT_EQ(scene.at("set_aside"), (json{{"float", json::object()}, {"double", json::object()}}));
   EXPECT_FALSE(scene.contains("topology")) << "balls are no mesh";

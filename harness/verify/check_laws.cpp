@@ -179,9 +179,11 @@ class Checks {
 
 void check_laws(const Geometry<double>& geometry, const std::vector<Ray<double>>& rays,
                 const std::function<void(const LawCheck&)>& report) {
+  if (geometry.has_placed()) throw InputError("laws are checked in scenes without placed parts");
   const Checks checks(geometry, rays, report);
   for (const TechniqueEntry* entry : technique_entries())
-    if (geometry.size() <= entry->info.max_practical_objects) checks.of_one(entry->info.id);
+    if (entry->composable() && geometry.size() <= entry->info.max_practical_objects)
+      checks.of_one(entry->info.id);
   for (const char* expression : kExpressions) checks.of_one(expression);
   for (const auto& [first, second] : kPairs) checks.of_pair(first, second);
   for (const auto& [first, second, third] : kTriples) checks.of_triple(first, second, third);

@@ -14,7 +14,7 @@ namespace rayshoot {
 
 /// `placed` is a part that is placed in the scene as one object.
 enum class ObjectKind : std::uint8_t { triangle, polygon, sphere, cone, placed };
-inline constexpr std::array kObjectKindNames = {"triangle", "polygon", "sphere", "cone", "placed"};
+inline constexpr std::array kObjectKindNames = {"triangle", "polygon", "sphere", "cone", "placed_part"};
 using ObjectCounts = std::array<std::size_t, kObjectKindNames.size()>;
 
 /// An NFF material: `f red green blue Kd Ks Shine T index_of_refraction`.

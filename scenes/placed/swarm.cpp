@@ -2,8 +2,8 @@
 //
 // Purpose    Motion: the box about all of an object's way is several times as large as the object, so a technique that knows
 //            no time tests many objects that are elsewhere by then.
-// Size       size^3 flying objects, spheres, cones and darts in turn, and a floor: 4 -> 65, 12 -> 1729 (default). A dart is
-//            four triangles: each third object counts four times.
+// Size       size^3 flying objects, spheres, cones and darts in turn, and a floor: 4 -> 128, 12 -> 3457 (default): a dart is
+//            four triangles.
 // Parameters speed (3): the longest way of an object, in units of the distance between neighbours.
 
 #include <cmath>
@@ -94,7 +94,7 @@ const SceneGenerator& scene_swarm() {
       .title = "Objects that fly in all directions",
       .source = "after Glassner, Spacetime Ray Tracing for Animation, 1988",
       .default_size = 12,
-      .min_size = 1,
+      .min_size = 2,
       .purpose = "moving objects whose ways cross: size^3 of them over a floor",
       .parameters = {real_parameter(
           "speed", 3, 0, 1000, "the longest way of an object, in units of the distance between neighbours")},
