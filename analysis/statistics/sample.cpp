@@ -8,6 +8,8 @@
 #include <numeric>
 #include <vector>
 
+#include "analysis/statistics/rank_sum.h"
+
 namespace rayshoot::analysis {
 
 namespace {
@@ -27,10 +29,6 @@ std::size_t values_outside(std::size_t count, double confidence) {
   return outside;
 }
 
-bool all_positive(std::span<const double> sample) {
-  return std::all_of(sample.begin(), sample.end(), [](double value) { return value > 0; });
-}
-
 std::optional<Estimate> paired_ratio(std::span<const double> numerator, std::span<const double> denominator,
                                      double confidence) {
   std::vector<double> logarithms(numerator.size());
@@ -39,17 +37,6 @@ std::optional<Estimate> paired_ratio(std::span<const double> numerator, std::spa
   auto estimate = median(logarithms, confidence);
   estimate->value = std::exp(estimate->value);
   if (auto& interval = estimate->interval) interval = {std::exp(interval->low), std::exp(interval->high)};
-  return estimate;
-}
-
-std::optional<Estimate> unpaired_ratio(std::span<const double> numerator, std::span<const double> denominator,
-                                       double confidence) {
-  const auto above = median(numerator, (1 + confidence) / 2),
-             below = median(denominator, (1 + confidence) / 2);
-  Estimate estimate{above->value / below->value, std::nullopt};
-  if (above->interval && below->interval)
-    estimate.interval = {above->interval->low / below->interval->high,
-                         above->interval->high / below->interval->low};
   return estimate;
 }
 
@@ -81,10 +68,13 @@ std::optional<Estimate> mean(std::span<const double> sample, double confidence) 
 
 std::optional<Estimate> ratio(std::span<const double> numerator, std::span<const double> denominator,
                               double confidence) {
-  if (numerator.empty() || denominator.empty()) return std::nullopt;
+  if (numerator.size() != denominator.size()) return independent_ratio(numerator, denominator, confidence);
   if (!all_positive(numerator) || !all_positive(denominator)) return std::nullopt;
-  return numerator.size() == denominator.size() ? paired_ratio(numerator, denominator, confidence)
-                                                : unpaired_ratio(numerator, denominator, confidence);
+  return paired_ratio(numerator, denominator, confidence);
+}
+
+bool all_positive(std::span<const double> sample) {
+  return !sample.empty() && std::all_of(sample.begin(), sample.end(), [](double value) { return value > 0; });
 }
 
 std::optional<double> relative_error(std::optional<double> predicted, std::optional<double> measured) {

@@ -30,10 +30,13 @@ std::optional<Estimate> mean(std::span<const double> sample, double confidence =
 
 /// How many times larger the values of `numerator` are than those of `denominator`. Samples of equal length are
 /// paired: the median of the logarithms of the ratios of their i-th values, with the interval of that median.
-/// Otherwise the ratio of the two medians, between the extremes of their intervals, each at (1 + confidence) / 2 so
-/// that together they cover with `confidence`. Nothing when a sample is empty or has a value of 0 or less.
+/// Otherwise that of independent samples, by ranks (rank_sum.h). Nothing when a sample is empty or has a value of 0 or
+/// less.
 std::optional<Estimate> ratio(std::span<const double> numerator, std::span<const double> denominator,
                               double confidence = kConfidence);
+
+/// Whether there is a value, and none of 0 or less.
+bool all_positive(std::span<const double> sample);
 
 /// predicted / measured - 1; nothing when nothing was measured or 0.
 std::optional<double> relative_error(std::optional<double> predicted, std::optional<double> measured);
