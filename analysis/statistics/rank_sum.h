@@ -7,7 +7,7 @@
 
 /// Two samples that were not taken in turns, held against each other by ranks (Wilcoxon 1945, Mann & Whitney 1947).
 /// No distribution is assumed, only that one sample is the other one times a factor. Nine values each are enough
-/// for chances of 1 in 24000, where the sign test of nine pairs ends at 1 in 256: so it is this test
+/// for chances of 1 in 48620, where the sign test of nine pairs ends at 1 in 512: so it is this test
 /// that survives a correction for the hundreds of cells of a report.
 namespace rayshoot::analysis {
 

@@ -8,6 +8,8 @@ namespace rayshoot::cli {
 /// Lets an option be given again and again, each time with one value.
 inline CLI::Option* repeatable(CLI::Option* option) { return option->allow_extra_args(false); }
 
+/// Sets `status` to the program's exit status.
+void add_compare(CLI::App& program, int& status);
 void add_rays(CLI::App& program);
 void add_render(CLI::App& program);
 void add_scene(CLI::App& program);

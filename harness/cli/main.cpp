@@ -54,9 +54,10 @@ int fail(const std::string& message) {
 int run(int count, const char* const* arguments) {
   CLI::App program("Benchmarks ray tracing acceleration techniques", "rayshoot");
   program.require_subcommand(1);
+  int status = 0;
+  add_compare(program, status);
   add_rays(program);
   add_render(program);
-  int status = 0;
   const std::string command_line = fmt::format("{}", fmt::join(arguments, arguments + count, " "));
   add_run(program, command_line, status);
   add_scene(program);

@@ -4,6 +4,7 @@
 
 #include "analysis/tables/comparison.h"
 #include "harness/cli/commands.h"
+#include "harness/cli/formats.h"
 
 namespace rayshoot::cli {
 
@@ -15,10 +16,7 @@ void add_table(CLI::App& program) {
   auto* command = program.add_subcommand("table", "Print the comparison tables of reports");
   const auto options = std::make_shared<Options>();
   command->add_option("REPORT", options->reports, "Reports, as `run` writes them")->required();
-  std::vector<std::string> formats;
-  for (const auto& [name, format] : analysis::kFormats) formats.push_back(name);
-  command->add_option("--format", options->format, "text, markdown, csv or latex")
-      ->check(CLI::IsMember(formats));
+  add_format(*command, options->format);
   command->callback([options] {
     std::vector<report::Report> reports;
     for (const std::string& path : options->reports) reports.push_back(report::read_report(path));
