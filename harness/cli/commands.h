@@ -12,6 +12,7 @@ inline CLI::Option* repeatable(CLI::Option* option) { return option->allow_extra
 void add_compare(CLI::App& program, int& status);
 void add_rays(CLI::App& program);
 void add_render(CLI::App& program);
+void add_report(CLI::App& program);
 void add_scene(CLI::App& program);
 /// Sets `status` to the program's exit status; `command_line` is what the report records.
 void add_run(CLI::App& program, const std::string& command_line, int& status);

@@ -58,6 +58,7 @@ int run(int count, const char* const* arguments) {
   add_compare(program, status);
   add_rays(program);
   add_render(program);
+  add_report(program);
   const std::string command_line = fmt::format("{}", fmt::join(arguments, arguments + count, " "));
   add_run(program, command_line, status);
   add_scene(program);
