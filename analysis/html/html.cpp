@@ -26,7 +26,7 @@ thead span{display:block;font-weight:400;color:var(--faint);font-size:.92em;min-
 tbody tr:nth-child(odd){background:var(--panel)}
 th:first-child{text-align:left;font-weight:500;position:sticky;left:0;background:inherit;max-width:20rem;white-space:normal;overflow-wrap:break-word}
 thead tr,tbody tr:nth-child(even){background:var(--ground)}
-td.words{text-align:left;white-space:normal;overflow-wrap:anywhere;min-width:7rem}td.bad{color:var(--bad);font-weight:700}
+th.words{text-align:left}td.words{text-align:left;white-space:normal;overflow-wrap:anywhere;min-width:7rem}td.bad{color:var(--bad);font-weight:700}
 .sortable thead th{cursor:pointer}.sortable th[aria-sort=ascending]::after{content:" ▲"}.sortable th[aria-sort=descending]::after{content:" ▼"}
 ul.notes{font-size:.84rem;color:var(--faint);margin:.2rem 0 1rem;padding-left:1.2rem;max-width:60rem;overflow-wrap:anywhere}
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,30rem),1fr));gap:1.2rem}
@@ -36,7 +36,7 @@ dl{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1rem;font-size:
 @media (max-width:34rem){body{padding:.6rem}th:first-child{max-width:8.5rem}th,td{padding:.16rem .35rem}dl{grid-template-columns:1fr}dd{margin:0 0 .4rem 1rem}}
 @media print{:root{color-scheme:light;--ink:#000;--faint:#333;--ground:#fff;--panel:#f2f2f2;--rule:#aaa;--link:#000;--bad:#000}
 body{max-width:none;padding:0;font-size:10pt}nav{display:none}.scroll{overflow:visible}table{font-size:6.5pt}th,td{padding:.08rem .25rem}
-tr{break-inside:avoid}h2,h3,caption{break-after:avoid}.figures{grid-template-columns:1fr 1fr}th:first-child{position:static}}
+ul.notes,figcaption,dl{font-size:7pt}tr{break-inside:avoid}h2,h3,caption{break-after:avoid}.figures{grid-template-columns:1fr 1fr}th:first-child{position:static}}
 )";
 
 constexpr const char* kScript = R"(
@@ -67,7 +67,8 @@ std::string head_of(const Page& page) {
   std::string result = "<thead><tr>";
   for (const Column& column : page.columns)
     result +=
-        fmt::format("<th scope=\"col\"{}>{}<span>{}</span></th>",
+        fmt::format("<th scope=\"col\"{}{}>{}<span>{}</span></th>",
+                    column.style == Style::text ? " class=\"words\"" : "",
                     column.meaning.empty() ? "" : fmt::format(" title=\"{}\"", xml_escaped(column.meaning)),
                     xml_escaped(column.title), xml_escaped(column.unit));
   return result + "</tr></thead>\n";

@@ -135,10 +135,11 @@ std::string repetitions(const Report& report) {
                                  plural(values, "time"), far);
   if (check.samples > 0)
     text += fmt::format(
-        " A/A check: in {} of {} the second half of the repetitions differs from the first at 95 %, {}.",
-        check.differ, plural(check.samples, "cell"),
-        check.chance < 0.01 ? "more than by chance: the machine drifted while it measured"
-                            : "as chance has it");
+        " A/A check: in {} of {} the second half of the repetitions differs from the first at 95 %; by "
+        "chance so many "
+        "do in {} % of reports{}.",
+        check.differ, plural(check.samples, "cell"), significant(100 * check.chance),
+        check.chance < 0.01 ? ", so the machine drifted while it measured" : "");
   return text;
 }
 

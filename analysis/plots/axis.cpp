@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,9 +23,17 @@ double step_of(double range) {
   return 10 * power;
 }
 
+/// "10⁻⁸", "5·10⁶", and plain numbers between a thousandth and a million.
 std::string label_of(double value) {
-  if (value != 0 && (std::abs(value) >= 1e6 || std::abs(value) < 1e-3)) return fmt::format("{:.0e}", value);
-  return fmt::format("{:.6g}", value);
+  if (value == 0 || (std::abs(value) < 1e6 && std::abs(value) >= 0.999e-3))
+    return fmt::format("{:.6g}", value);
+  constexpr std::array digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
+  const double factor = std::round(value / std::pow(10, exponent));
+  std::string power = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : fmt::format("{}", std::abs(exponent)))
+    power += digits[static_cast<std::size_t>(digit - '0')];
+  return factor == 1 ? power : fmt::format("{}·{}", factor, power);
 }
 
 }  // namespace

@@ -13,8 +13,6 @@ namespace rayshoot::analysis {
 
 namespace {
 
-constexpr const char* kExhaustive = "exhaustive";
-
 Plot plot_of(const Precision& precision, std::vector<MeanRow> rows, const std::vector<std::string>& left_out,
              const SeriesStyles& styles) {
   std::vector<double> traces, builds;
@@ -58,11 +56,7 @@ PlotSet build_trace_plots(const std::vector<Group>& groups) {
   for (const Precision& precision : precisions(groups)) {
     std::vector<std::string> left_out;
     std::vector<MeanRow> rows = mean_rows(precision.groups, {trace_ns_per_ray, build_milliseconds}, left_out);
-    // Exhaustive search and the replay of known hits build nothing.
-    std::erase_if(rows, [](const MeanRow& row) {
-      return !row.means[0] || !row.means[1] || row.label.starts_with(kZeroOverhead) ||
-             row.label.starts_with(kExhaustive);
-    });
+    std::erase_if(rows, [](const MeanRow& row) { return !row.means[0] || !row.means[1]; });
     if (!rows.empty()) set.plots.push_back(plot_of(precision, std::move(rows), left_out, styles));
   }
   if (set.plots.empty()) set.left_out = "no technique was timed in every scene";

@@ -10,7 +10,7 @@ namespace rayshoot::analysis {
 
 namespace {
 
-constexpr double kLeft = 62, kRight = 14, kTop = 12, kBottom = 46;
+constexpr double kLeft = 66, kRight = 14, kTop = 12, kBottom = 46;
 constexpr double kLineHeight = 16;
 /// Width of a character of small text, rather too much than too little.
 constexpr double kSmallCharacter = 6.3;
@@ -60,6 +60,11 @@ void Chart::frontier(const std::vector<Point>& values, const std::string& style)
   for (const Point& value : values) {
     if (!corners.empty()) corners.push_back({at(value.x, value.y).x, corners.back().y});
     corners.push_back(at(value.x, value.y));
+  }
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const auto [left, right] = std::minmax(corners[i - 1].x, corners[i].x);
+    const auto [top, bottom] = std::minmax(corners[i - 1].y, corners[i].y);
+    taken_.push_back({left - 1, top - 1, right + 1, bottom + 1});
   }
   svg_.polyline(corners, style);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "analysis/plots/chart.h"
 #include "analysis/plots/plots.h"
@@ -20,14 +22,16 @@ constexpr std::size_t kLeastSizes = 3;
 struct Growing {
   const char *name, *axis, *words;
   Quantity quantity;
+  /// Whether it is different for other rays.
+  bool of_rays;
 };
-constexpr Growing kGrowing[] = {{"time", "time, ns per ray", "Time", trace_ns_per_ray},
-                                {"build", "build, ms", "Build", build_milliseconds},
-                                {"memory", "structure, bytes", "Memory", structure_bytes}};
+constexpr Growing kGrowing[] = {{"time", "time, ns per ray", "Time", trace_ns_per_ray, true},
+                                {"build", "build, ms", "Build", build_milliseconds, false},
+                                {"memory", "structure, bytes", "Memory", structure_bytes, false}};
 
 /// A scene in several sizes, seen by one distribution of rays in one precision.
 struct Family {
-  std::string name;
+  std::string scene, rays, precision;
   std::map<std::uint64_t, const Group*> by_objects;
 };
 
@@ -35,12 +39,17 @@ std::vector<Family> families(const std::vector<Group>& groups) {
   std::vector<Family> result;
   for (const Group& group : groups) {
     if (!group.scene || !group.rays || group.entries.empty()) continue;
-    const std::string& rays = group.rays_id;
-    const std::size_t end = rays.starts_with(group.scene_id + "/") ? group.scene_id.size() + 1 : 0;
-    const std::string name = fmt::format("{} as {}, {}, {}", group.scene->generator, group.scene->form,
-                                         rays.substr(end), precision_of(group));
-    auto found = std::find_if(result.begin(), result.end(), [&](const Family& f) { return f.name == name; });
-    if (found == result.end()) found = result.insert(result.end(), {name, {}});
+    const std::string prefix = group.scene_id + "/";
+    const Family family{
+        fmt::format("{} as {}", group.scene->generator, group.scene->form),
+        group.rays_id.starts_with(prefix) ? group.rays_id.substr(prefix.size()) : group.rays_id,
+        precision_of(group),
+        {}};
+    auto found = std::find_if(result.begin(), result.end(), [&](const Family& other) {
+      return std::tie(other.scene, other.rays, other.precision) ==
+             std::tie(family.scene, family.rays, family.precision);
+    });
+    if (found == result.end()) found = result.insert(result.end(), family);
     found->by_objects[group.scene->objects] = &group;
   }
   std::erase_if(result, [](const Family& family) { return family.by_objects.size() < kLeastSizes; });
@@ -98,8 +107,11 @@ std::optional<Plot> plot_of(const Family& family, const Growing& growing, const 
     legend.emplace_back(fmt::format("{}: {}", label, exponent_in_words(*law)), styles(label));
   }
   chart.legend(legend);
-  const std::string title = fmt::format("{} over the number of objects: {}", growing.words, family.name);
-  return Plot{fmt::format("scaling-{}-{}", growing.name, file_name_of(family.name)), title,
+  const std::string name = growing.of_rays
+                               ? fmt::format("{}, {}, {}", family.scene, family.rays, family.precision)
+                               : fmt::format("{}, {}", family.scene, family.precision);
+  const std::string title = fmt::format("{} over the number of objects: {}", growing.words, name);
+  return Plot{fmt::format("scaling-{}-{}", growing.name, file_name_of(name)), title,
               "Lines are powers of the number of objects, fitted to the logarithms; beside the names the "
               "exponents, with "
               "Student's 95 % intervals.",
@@ -111,9 +123,13 @@ std::optional<Plot> plot_of(const Family& family, const Growing& growing, const 
 PlotSet object_scaling_plots(const std::vector<Group>& groups) {
   PlotSet set{.kind = "Scaling with the number of objects"};
   const SeriesStyles styles(groups);
-  for (const Family& family : families(groups))
+  std::set<std::pair<std::string, std::string>> drawn;
+  for (const Family& family : families(groups)) {
+    const bool first = drawn.emplace(family.scene, family.precision).second;
     for (const Growing& growing : kGrowing)
-      if (auto plot = plot_of(family, growing, styles)) set.plots.push_back(std::move(*plot));
+      if (growing.of_rays || first)
+        if (auto plot = plot_of(family, growing, styles)) set.plots.push_back(std::move(*plot));
+  }
   if (set.plots.empty())
     set.left_out =
         fmt::format("no scene was measured in {} sizes or more with rays of one kind", kLeastSizes);

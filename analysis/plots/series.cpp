@@ -11,6 +11,10 @@
 
 namespace rayshoot::analysis {
 
+namespace {
+constexpr const char* kExhaustive = "exhaustive";
+}
+
 SeriesStyles::SeriesStyles(const std::vector<Group>& groups) {
   std::set<std::string> labels;
   for (const Group& group : groups)
@@ -37,7 +41,9 @@ std::optional<double> trace_ns_per_ray(const Entry& entry) {
 }
 
 std::optional<double> build_milliseconds(const Entry& entry) {
+  const std::string& technique = entry.measurement->technique;
   const auto time = median(entry.measurement->build_ns);
+  if (technique == kZeroOverhead || technique == kExhaustive) return std::nullopt;
   return time ? std::optional(time->value / 1e6) : std::nullopt;
 }
 

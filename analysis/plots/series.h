@@ -29,6 +29,7 @@ bool is_right(const Entry& entry);
 using Quantity = std::optional<double> (*)(const Entry&);
 
 std::optional<double> trace_ns_per_ray(const Entry& entry);
+/// Nothing for what builds nothing: exhaustive search and the replay of known hits.
 std::optional<double> build_milliseconds(const Entry& entry);
 std::optional<double> structure_bytes(const Entry& entry);
 

@@ -167,6 +167,26 @@ TEST(Compare, CountsToTheLastDigit) {
   }
 }
 
+/// Builds of a tenth of a millisecond and less, and times of other numbers of threads, are no evidence.
+TEST(Compare, DoesNotJudgeShortBuildsNorOtherThreads) {
+  std::mt19937_64 generator(8);
+  const auto changed = [&](double build_scale) {
+    Report before = simulated(generator), after = simulated(generator);
+    for (Report* report : {&before, &after})
+      for (double& time : report->measurements[0].build_ns) time *= build_scale;
+    for (double& time : after.measurements[0].build_ns) time *= 1.5;
+    return compare(before, after, {}).cells[0].build.judgement;
+  };
+  EXPECT_EQ(changed(1), Judgement::slower);
+  EXPECT_EQ(changed(0.05), Judgement::not_judged);
+  const Report before = simulated(generator);
+  Report after = simulated(generator, 2);
+  after.measurements[0].trace_threads = 4;
+  const Comparison comparison = compare(before, after, {});
+  EXPECT_EQ(comparison.cells[0].trace.judgement, Judgement::not_judged);
+  EXPECT_EQ(comparison.cells[1].trace.judgement, Judgement::slower);
+}
+
 TEST(Compare, DoesNotPassOverChangedInputs) {
   Report before = small_report(), after = small_report();
   after.ray_sets[0].hash = "other";

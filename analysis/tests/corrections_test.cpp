@@ -32,6 +32,8 @@ TEST(BenjaminiHochberg, MultipliesByTheNumberOverTheRank) {
   EXPECT_THAT(benjamini_hochberg(Values{0.5, 0.01, 0.03, 0.02}),
               ElementsAre(DoubleNear(0.5, 1e-12), DoubleNear(0.04, 1e-12), DoubleNear(0.04, 1e-12),
                           DoubleNear(0.04, 1e-12)));
+  EXPECT_THAT(benjamini_hochberg(Values{0.010, 0.011}),
+              ElementsAre(DoubleNear(0.011, 1e-12), DoubleNear(0.011, 1e-12)));
   EXPECT_THAT(benjamini_hochberg(Values{}), IsEmpty());
 }
 
@@ -88,6 +90,7 @@ TEST(RankCorrelation, SharesTheRanksOfEqualValues) {
   const Values tied{1, 2, 2, 3}, b{1, 2, 3, 4};
   EXPECT_NEAR(*spearman(tied, b), 4.5 / std::sqrt(4.5 * 5), 1e-12);
   EXPECT_NEAR(*kendall(tied, b), 5 / std::sqrt(5.0 * 6), 1e-12);
+  EXPECT_NEAR(*kendall(b, tied), 5 / std::sqrt(5.0 * 6), 1e-12);
   EXPECT_FALSE(spearman(Values{1, 1}, Values{1, 2}));
   EXPECT_FALSE(kendall(Values{1, 1}, Values{1, 2}));
   EXPECT_FALSE(spearman(Values{1}, Values{1}));

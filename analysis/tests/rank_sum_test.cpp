@@ -28,6 +28,7 @@ TEST(RankSum, HasTheChancesOfTheTextbooks) {
   EXPECT_NEAR(chance_of_ranks(Values{3, 4, 6}, Values{1, 2, 5}), 4.0 / 20, 1e-12);
   EXPECT_NEAR(chance_of_ranks(Values{1, 2, 3}, Values{4, 5, 6}), 1, 1e-12);
   EXPECT_EQ(chance_of_ranks(Values{}, Values{1}), 1);
+  EXPECT_NEAR(chance_of_ranks(Values{5, 5, 5}, Values{5, 5, 5}), 1, 1e-12) << "equal values are no evidence";
 }
 
 /// The chance of n and n values with so many pairs the other way round.
