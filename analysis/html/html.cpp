@@ -66,11 +66,10 @@ std::string notes_list(const std::vector<std::string>& notes) {
 std::string head_of(const Page& page) {
   std::string result = "<thead><tr>";
   for (const Column& column : page.columns)
-    result +=
-        fmt::format("<th scope=\"col\"{}{}>{}<span>{}</span></th>",
-                    column.style == Style::text ? " class=\"words\"" : "",
-                    column.meaning.empty() ? "" : fmt::format(" title=\"{}\"", xml_escaped(column.meaning)),
-                    xml_escaped(column.title), xml_escaped(column.unit));
+    result += fmt::format(
+        "<th scope=\"col\"{}{}>{}<span>{}</span></th>", column.style == Style::text ? " class=\"words\"" : "",
+        column.meaning.empty() ? "" : fmt::format(" title=\"{}\"", xml_escaped(column.meaning)),
+        xml_escaped(column.title), xml_escaped(column.unit));
   return result + "</tr></thead>\n";
 }
 

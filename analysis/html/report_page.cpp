@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "analysis/cost_models/verdicts.h"
 #include "analysis/html/html.h"
 #include "analysis/html/provenance.h"
 #include "analysis/html/summary.h"
@@ -38,6 +39,7 @@ class PageBuilder {
     add_tables("comparison", "Scene by scene", comparison_tables(reports_));
     add_tables("threads", "Threads", scaling_tables(reports_));
     add_tables("errors", "Error against run time", work_precision_tables(reports_));
+    add_tables("models", "Cost models", model_tables());
     add_tables("published", "Published figures", published_tables(reports_));
     add_tables("numerical", "Numerical suite", grading_tables(reports_, false));
     add_tables("provenance", "Machine and provenance", {provenance_table(reports_), inputs_table(reports_)});
@@ -54,6 +56,13 @@ class PageBuilder {
         const std::string name = plot.name;
         for (int i = 2; !names.insert(plot.name).second; ++i) plot.name = fmt::format("{}-{}", name, i);
       }
+  }
+
+  /// Verdicts on the cost models; none where nothing was both counted and timed.
+  std::vector<Table> model_tables() const {
+    const std::vector<const CostModel*> models(cost_models().begin(), cost_models().end());
+    if (fit_models(groups_, models).empty()) return {};
+    return validation_tables(validate(groups_, models, {}), false);
   }
 
   std::vector<std::string> summary() const {

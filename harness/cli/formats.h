@@ -7,10 +7,10 @@
 namespace rayshoot::cli {
 
 /// The option that says how tables are printed.
-inline void add_format(CLI::App& command, std::string& format) {
+inline CLI::Option* add_format(CLI::App& command, std::string& format) {
   std::vector<std::string> names;
   for (const auto& [name, value] : analysis::kFormats) names.push_back(name);
-  command.add_option("--format", format, "text, markdown, csv or latex")->check(CLI::IsMember(names));
+  return command.add_option("--format", format, "text, markdown, csv or latex")->check(CLI::IsMember(names));
 }
 
 }  // namespace rayshoot::cli

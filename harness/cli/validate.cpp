@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "harness/cli/commands.h"
+#include "harness/cli/validate_reports.h"
 #include "harness/plan/catalogue.h"
 #include "harness/verify/equation3.h"
 #include "harness/verify/laws.h"
@@ -28,6 +29,7 @@ struct Options {
   /// Scenes on which all laws of the algebra are checked.
   std::vector<std::string> algebra;
   std::uint64_t seed = 1;
+  ReportValidation reports;
 };
 
 /// The techniques asked for; without any, all those of which equation (3) says something.
@@ -92,9 +94,10 @@ int validate_algebra(const Options& options, int threads) {
 
 int validate_command(const Options& options) {
   const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (!options.reports.reports.empty()) return validate_reports(options.reports) ? 0 : kLawFailed;
   if (!options.algebra.empty()) return validate_algebra(options, threads);
   if (options.laws.empty() || options.scenes.empty())
-    throw InputError("give --laws SCENE, or --law and --scene");
+    throw InputError("give --laws SCENE, or --law and --scene, or REPORT");
   for (const std::string& law : options.laws)
     if (law != kEquation3) throw InputError(unknown_name("law", law, {kEquation3}));
   for (const std::string& scene : options.scenes) scene_id(scene);
@@ -116,16 +119,22 @@ int validate_command(const Options& options) {
 }  // namespace
 
 void add_validate(CLI::App& program, int& status) {
-  auto* command = program.add_subcommand("validate", "Check a law afresh on given scenes");
+  auto* command = program.add_subcommand(
+      "validate", "Hold cost models against reports, or check a law afresh on given scenes");
   const auto options = std::make_shared<Options>();
+  auto* reports = add_report_options(*command, options->reports);
   auto* algebra =
       repeatable(command->add_option("--laws", options->algebra,
                                      "Scenes to check all laws of Revelles and Ureña on, (10) to (20), for "
                                      "every technique and a set of expressions"));
-  repeatable(command->add_option("--law", options->laws, kEquation3))->excludes(algebra);
-  repeatable(command->add_option("--scene", options->scenes, "Scenes to check it on"))->excludes(algebra);
+  algebra->excludes(reports);
+  repeatable(command->add_option("--law", options->laws, kEquation3))->excludes(algebra)->excludes(reports);
+  repeatable(command->add_option("--scene", options->scenes, "Scenes to check it on"))
+      ->excludes(algebra)
+      ->excludes(reports);
   command->add_option("--technique", options->techniques, "Techniques; all that it applies to if not given")
-      ->excludes(algebra);
+      ->excludes(algebra)
+      ->excludes(reports);
   command->add_option("--seed", options->seed, "Seed of the lines");
   command->callback([options, &status] { status = validate_command(*options); });
 }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/tables/groups.h"
+
+namespace rayshoot::analysis {
+
+/// What one unit of a term costs, in nanoseconds.
+struct Constant {
+  std::string name;
+  /// Whether every technique has its own, or all of a precision share it.
+  bool of_technique = false;
+};
+
+/// A formula for the time of a ray: a sum of terms, each a number that the report holds times a constant of 0 or more
+/// nanoseconds, which is fitted.
+struct CostModel {
+  std::string id, title;
+  /// In the words of its source: "T = C_IT N_IT + C_TS N_TS + C_0".
+  std::string formula;
+  std::string source;
+  /// What must be so for the model to be right.
+  std::string assumptions;
+  /// One for each term.
+  std::vector<Constant> constants;
+  /// The terms of a cell, per ray; nothing where the model does not speak of it.
+  std::optional<std::vector<double>> (*terms)(const Group& group, const Entry& entry) = nullptr;
+};
+
+/// A count of the cell's work per ray; 0 where it was not taken.
+double counted(const Entry& entry, std::uint64_t report::Work::*count);
+
+}  // namespace rayshoot::analysis
+
+namespace rayshoot {
+
+/// Every file of models/, sorted by name.
+std::span<const analysis::CostModel* const> cost_models();
+
+}  // namespace rayshoot

@@ -1,0 +1,243 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "analysis/cost_models/verdicts.h"
+#include "analysis/tests/find_cell.h"
+
+namespace rayshoot::analysis {
+namespace {
+
+using report::Measurement;
+using report::Report;
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Optional;
+using ::testing::SizeIs;
+
+const CostModel& model(const std::string& id) {
+  for (const CostModel* one : cost_models())
+    if (one->id == id) return *one;
+  throw std::out_of_range(id);
+}
+
+/// Six scenes, five techniques and work that differs in all of them, and times that follow a law.
+template <class Nanoseconds>
+Report report_by_law(const Nanoseconds& ns_per_ray) {
+  Report report;
+  for (std::uint64_t s = 0; s < 6; ++s) {
+    const std::string scene = fmt::format("scene{}", s), rays = scene + "/rays";
+    report.scenes.push_back(
+        {.id = scene, .objects = 100, .counts = {{"triangle", 10 * s}, {"sphere", 100 - 10 * s}}});
+    report.ray_sets.push_back(
+        {.id = rays, .scene = scene, .distribution = s % 2 ? "chords" : "whitted", .rays = 100});
+    for (std::uint64_t t = 0; t < 5; ++t) {
+      Measurement cell{
+          .scene = scene, .rays = rays, .technique = fmt::format("technique{}", t), .scalar = "float"};
+      cell.work = report::Work{100,
+                               300 + 170 * ((3 * s + t) % 7),
+                               250,
+                               t < 2 ? 400 + 90 * s * s : 0,
+                               200 + 110 * ((s + 5 * t) % 8),
+                               150 + 20 * (s * t % 5),
+                               50 + 10 * s,
+                               0};
+      cell.efficiency = report::Efficiency{0.02 + 0.01 * static_cast<double>(s + t), {}, 0.1, {}};
+      if (t < 2) cell.predicted = report::Predicted{3 + static_cast<double>(s), 9 - static_cast<double>(t)};
+      cell.trace_ns = {100 * ns_per_ray(report.scenes.back(), cell, static_cast<double>(t))};
+      report.measurements.push_back(std::move(cell));
+    }
+  }
+  return report;
+}
+
+double rate(const Measurement& cell, std::uint64_t report::Work::*count) {
+  return static_cast<double>((*cell.work).*count) / 100;
+}
+
+double havrans_law(const report::Scene&, const Measurement& cell, double) {
+  return 8 * rate(cell, &report::Work::object_tests) + 3 * rate(cell, &report::Work::steps) + 20;
+}
+
+std::vector<double> values(const std::vector<std::optional<double>>& constants) {
+  std::vector<double> result;
+  for (const auto& constant : constants) result.push_back(constant.value());
+  return result;
+}
+
+/// A report, its groups, and one model held against it.
+struct Held {
+  Report report;
+  std::vector<Group> all;
+  Validation validation;
+
+  Held(Report given, const std::string& id, ModelBounds bounds = {})
+      : report(std::move(given)), all(groups(report)), validation(validate(all, {&model(id)}, bounds)) {}
+  const ModelFit& fit() const { return validation.fits.at(0); }
+  const ModelVerdict& verdict() const { return validation.verdicts.at(0); }
+};
+
+TEST(CostModels, SayWhatTheyAre) {
+  EXPECT_GE(cost_models().size(), 7u);
+  const Report report = report_by_law(havrans_law);
+  for (const CostModel* one : cost_models()) {
+    EXPECT_NE(one->title, "");
+    EXPECT_THAT(one->formula, HasSubstr("T = "));
+    EXPECT_NE(one->source, "");
+    EXPECT_NE(one->assumptions, "");
+    for (const Group& group : groups(report))
+      for (const Entry& entry : group.entries) {
+        const auto terms = one->terms(group, entry);
+        EXPECT_EQ(terms ? terms->size() : one->constants.size(), one->constants.size()) << one->id;
+      }
+  }
+}
+
+TEST(Havran, FindsTheConstantsThatAreThere) {
+  const Held held(report_by_law(havrans_law), "havran");
+  EXPECT_THAT(values(held.fit().constants.at("all")),
+              ElementsAre(DoubleNear(8, 1e-6), DoubleNear(3, 1e-6), DoubleNear(20, 1e-6)));
+  EXPECT_EQ(held.verdict().predicted, 30u);
+  EXPECT_LT(*held.verdict().max_error, 1e-6);
+  // Equal times are told apart by the rounding of their predictions.
+  EXPECT_GT(*held.verdict().spearman, 0.999);
+  EXPECT_GT(*held.verdict().kendall, 0.99);
+  EXPECT_GT(*held.verdict().spearman_within, 0.99);
+  EXPECT_EQ(held.verdict().in_words(), "predicts times");
+}
+
+/// A step that costs from 1 to 5 ns, by technique: one set of constants does not do.
+TEST(HavranByTechnique, FindsTheConstantsOfEveryTechnique) {
+  const auto law = [](const report::Scene&, const Measurement& cell, double technique) {
+    return 8 * rate(cell, &report::Work::object_tests) + (1 + technique) * rate(cell, &report::Work::steps) +
+           20;
+  };
+  const Held apart(report_by_law(law), "havran_by_technique"), together(report_by_law(law), "havran");
+  EXPECT_THAT(values(apart.fit().constants.at("technique4")),
+              ElementsAre(DoubleNear(8, 1e-6), DoubleNear(5, 1e-6), DoubleNear(20, 1e-6)));
+  EXPECT_LT(*apart.verdict().max_error, 1e-6);
+  EXPECT_GT(*together.verdict().median_error, 0.01);
+}
+
+TEST(CountedWork, FindsPricesThatAllShareAndThoseOfATechnique) {
+  const auto law = [](const report::Scene& scene, const Measurement& cell, double technique) {
+    const double tests = rate(cell, &report::Work::object_tests) / 100;
+    const double empty = rate(cell, &report::Work::empty_cells);
+    return tests * (6 * static_cast<double>(scene.counts.at("triangle")) +
+                    11 * static_cast<double>(scene.counts.at("sphere"))) +
+           4 * (rate(cell, &report::Work::cells) - empty) + 2 * empty +
+           (1 + technique) * rate(cell, &report::Work::steps) + 7 * rate(cell, &report::Work::volume_tests) +
+           10 * technique;
+  };
+  const Held held(report_by_law(law), "counted_work");
+  const auto& shared = held.fit().constants.at("all");
+  EXPECT_THAT(shared[0], Optional(DoubleNear(6, 1e-4))) << "triangle";
+  EXPECT_THAT(shared[2], Optional(DoubleNear(11, 1e-4))) << "sphere";
+  EXPECT_THAT(shared[4], Optional(DoubleNear(4, 1e-4))) << "full cell";
+  EXPECT_FALSE(shared[6]) << "a step has no price that all share";
+  EXPECT_THAT(held.fit().constants.at("technique3")[6], Optional(DoubleNear(4, 1e-4))) << "step";
+  EXPECT_THAT(held.fit().constants.at("technique1")[7], Optional(DoubleNear(7, 1e-4))) << "volume";
+  EXPECT_LT(*held.verdict().max_error, 1e-4);
+}
+
+TEST(Equations, SpeakOfHierarchiesAlone) {
+  const auto law = [](const report::Scene&, const Measurement& cell, double) {
+    return 5 * rate(cell, &report::Work::volume_tests) + 9 * rate(cell, &report::Work::object_tests);
+  };
+  const Held counted_tests(report_by_law(law), "equation_1");
+  EXPECT_THAT(values(counted_tests.fit().constants.at("all")),
+              ElementsAre(DoubleNear(5, 1e-6), DoubleNear(9, 1e-6)));
+  EXPECT_EQ(counted_tests.verdict().predicted, 12u);
+  EXPECT_EQ(counted_tests.fit().silent, 18u);
+  const auto expected_law = [](const report::Scene&, const Measurement& cell, double) {
+    return cell.predicted
+               ? 2 * cell.predicted->volume_tests_per_ray + 3 * cell.predicted->object_tests_per_ray
+               : 1;
+  };
+  const Held expected_tests(report_by_law(expected_law), "equation_3");
+  EXPECT_THAT(values(expected_tests.fit().constants.at("all")),
+              ElementsAre(DoubleNear(2, 1e-6), DoubleNear(3, 1e-6)));
+}
+
+/// M = 0.02 + 0.01 (s + t) of 100 objects.
+TEST(Candidates, PricesM) {
+  const auto law = [](const report::Scene&, const Measurement& cell, double) {
+    return 7 * 100 * cell.efficiency->m + 11;
+  };
+  const Held held(report_by_law(law), "candidates");
+  EXPECT_THAT(values(held.fit().constants.at("all")), ElementsAre(DoubleNear(7, 1e-6), DoubleNear(11, 1e-6)));
+}
+
+/// A scene that is twice as slow as the others say is predicted by the others: by half of its time.
+TEST(Validation, PredictsASceneWithoutItsOwnTimes) {
+  Report report = report_by_law(havrans_law);
+  for (Measurement& cell : report.measurements)
+    if (cell.scene == "scene2")
+      for (double& time : cell.trace_ns) time *= 2;
+  const Held held(std::move(report), "havran");
+  for (const ModelCell& cell : held.fit().cells)
+    if (cell.group->scene_id == "scene2") {
+      EXPECT_NEAR(*cell.predicted / cell.measured, 0.5, 1e-6);
+    }
+  const auto tables = validation_tables(held.validation, true);
+  EXPECT_NEAR(number_in(tables.at(1), "scene2", "havran_float"), -0.5, 1e-6);
+  EXPECT_GT(number_in(tables.at(1), "scene1", "havran_float"), 0)
+      << "the slow scene raises what others are expected to take";
+  EXPECT_NEAR(find_cell(tables.at(0), "havran, float", "max_error_percent").number.value(), 50, 1e-4);
+  EXPECT_THAT(row_names(tables.at(2)), ElementsAre("chords", "whitted"));
+  EXPECT_THAT(tables.back().rows, SizeIs(30)) << "every cell";
+}
+
+/// What has eleven times the steps of all other scenes is beyond what they say.
+TEST(Validation, IsSilentFarFromWhatWasMeasured) {
+  Report report = report_by_law(havrans_law);
+  report.measurements[7].work->steps = 20000;
+  const Held held(std::move(report), "havran");
+  EXPECT_EQ(held.fit().silent, 1u);
+  EXPECT_EQ(held.verdict().predicted, 29u);
+}
+
+TEST(Validation, LeavesOutBaselinesAndWhatIsWrong) {
+  Report report = report_by_law(havrans_law);
+  report.measurements[0].technique = kZeroOverhead;
+  report.measurements[1].technique = "embree_user";
+  report.measurements[2].verdict.status = report::Status::graded;
+  report.measurements[3].work.reset();
+  report.measurements[4].trace_ns.clear();
+  EXPECT_THAT(Held(std::move(report), "havran").fit().cells, SizeIs(25));
+}
+
+TEST(Validation, FailsWhereABoundIsNotKept) {
+  const auto law = [](const report::Scene& scene, const Measurement& cell, double technique) {
+    return havrans_law(scene, cell, technique) * (1 + 0.3 * technique);
+  };
+  EXPECT_TRUE(Held(report_by_law(law), "havran").validation.holds());
+  EXPECT_TRUE(
+      Held(report_by_law(law), "havran", {.max_median_error = 0.9, .min_spearman = 0}).validation.holds());
+  const Held inexact(report_by_law(law), "havran", {.max_median_error = 0.001});
+  EXPECT_FALSE(inexact.validation.holds());
+  EXPECT_THAT(inexact.verdict().failures, ElementsAre("median error above 0.100 %"));
+  const Held disordered(report_by_law(law), "havran", {.min_spearman = 1});
+  EXPECT_THAT(disordered.verdict().failures, ElementsAre("Spearman below 1.00"));
+  EXPECT_THAT(
+      find_cell(validation_tables(disordered.validation, false).at(0), "havran, float", "verdict").text,
+      HasSubstr("FAILS: Spearman below 1.00"));
+}
+
+/// One scene has no other to be predicted from: a bound that cannot be checked is not kept.
+TEST(Validation, FailsWhereNothingCouldBePredicted) {
+  Report report = report_by_law(havrans_law);
+  report.measurements.resize(5);
+  const Held held(std::move(report), "havran", {.max_median_error = 10});
+  EXPECT_EQ(held.verdict().predicted, 0u);
+  EXPECT_FALSE(held.validation.holds());
+  const Report nothing;
+  const std::vector<Group> none = groups(nothing);
+  EXPECT_THROW(validate(none, {&model("havran")}, {}), report::ReportError);
+}
+
+}  // namespace
+}  // namespace rayshoot::analysis
