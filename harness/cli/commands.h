@@ -10,6 +10,7 @@ inline CLI::Option* repeatable(CLI::Option* option) { return option->allow_extra
 
 /// Sets `status` to the program's exit status.
 void add_compare(CLI::App& program, int& status);
+void add_merge(CLI::App& program);
 void add_rays(CLI::App& program);
 void add_render(CLI::App& program);
 void add_report(CLI::App& program);

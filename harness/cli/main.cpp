@@ -56,6 +56,7 @@ int run(int count, const char* const* arguments) {
   program.require_subcommand(1);
   int status = 0;
   add_compare(program, status);
+  add_merge(program);
   add_rays(program);
   add_render(program);
   add_report(program);

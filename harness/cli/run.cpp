@@ -10,7 +10,9 @@
 #include "harness/cli/commands.h"
 #include "harness/cli/long_run.h"
 #include "harness/cli/progress.h"
+#include "harness/cli/resume.h"
 #include "harness/measure/environment.h"
+#include "harness/plan/shard.h"
 
 namespace rayshoot::cli {
 
@@ -27,6 +29,8 @@ struct Options {
   std::optional<std::uint64_t> seed, graded_rays;
   std::optional<double> target_m_error;
   bool counts_only = false;
+  std::optional<std::string> shard;
+  bool resume = false;
   std::string output;
 };
 
@@ -63,17 +67,24 @@ bool any_failure(const report::Report& report) {
 }
 
 int run_command(const Options& options, const std::string& command_line) {
-  const Plan plan = make_plan(suite_of(options));
+  Plan plan = make_plan(suite_of(options));
+  if (options.shard) keep_shard(plan, parse_shard(*options.shard));
   const report::Run started = started_run(command_line, plan.suite.seed);
   const std::string output = report_path(options.output, started.id);
+
+  std::optional<report::Report> earlier;
+  if (options.resume) earlier = earlier_part(output, started);
+  if (earlier) skip_done(plan, *earlier);
 
   stop_on_interrupt();
   report::Report report;
   {
     Progress progress(plan.cells());
-    report = run(plan, started, progress, interrupted);
+    Checkpoints checkpoints(progress, options.output, earlier);
+    report = continued(earlier, run(plan, started, checkpoints, interrupted));
+    // Written while the checkpoint is still there.
+    report::write_report(report, output);
   }
-  report::write_report(report, output);
   fmt::print("{}\nReport: {}\n", analysis::render_comparison({report}, analysis::Format::text), output);
   if (!report.run.complete) return kInterrupted;
   return any_failure(report) ? kCheckFailed : 0;
@@ -109,7 +120,14 @@ void add_run(CLI::App& program, const std::string& command_line, int& status) {
   command->add_option("--threads", options->threads, "Threads that trace while timed")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--counts-only", options->counts_only, "Verify and count, but take no time");
-  command->add_option("-o,--output", options->output, "Where to write the report");
+  command->add_option("--shard", options->shard,
+                      "Only the I-th of N parts of the scenes, I/N; `merge` joins their reports");
+  auto* output = command->add_option("-o,--output", options->output, "Where to write the report");
+  command
+      ->add_flag(
+          "--resume", options->resume,
+          "Go on where the same command was killed or interrupted: scenes that are done stay as they are")
+      ->needs(output);
   command->callback([options, command_line, &status] { status = run_command(*options, command_line); });
 }
 

@@ -153,8 +153,10 @@ report::Report run(const Plan& plan, report::Run run, RunObserver& observer,
   if (!plan.suite.published.empty()) report.run.published = plan.published.source;
   Runner runner(plan, report, observer, stopped);
   report.run.seconds = seconds_of([&] {
-    for (const std::string& scene : plan.suite.scenes)
+    for (const std::string& scene : plan.suite.scenes) {
       if (!stopped()) runner.run_scene(scene);
+      if (!stopped()) observer.scene_done(report);
+    }
   });
   report.run.complete = !stopped();
   return report;

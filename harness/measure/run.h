@@ -15,6 +15,8 @@ class RunObserver {
   virtual void doing(const std::string& step) = 0;
   /// So many more cells of the plan are done or left out.
   virtual void finished(std::size_t cells) = 0;
+  /// All cells of a scene are done, and the report holds them.
+  virtual void scene_done(const report::Report&) {}
 };
 
 /// Run all cells of a plan: verify, then count, then time. Cells with wrong answers get no counts and no

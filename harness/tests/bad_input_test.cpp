@@ -73,6 +73,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"laws_and_law", {"validate", "--laws", "tetra:1", "--law", "equation-3"}, "--law"},
         BadInput{"no_law", {"validate", "--law", "equation-3"}, "give --laws SCENE, or --law and --scene"},
         BadInput{"laws_of_no_scene", {"validate", "--laws", "tetar:1"}, "did you mean 'tetra'?"},
+        BadInput{"no_shard", {"run", "quick", "--shard", "2", "-o", "r.json"}, "the second of three is 2/3"},
+        BadInput{
+            "shard_beyond_the_last", {"run", "quick", "--shard", "4/3", "-o", "r.json"}, "'4/3' is no shard"},
+        BadInput{"shard_before_the_first",
+                 {"run", "quick", "--shard", "0/3", "-o", "r.json"},
+                 "'0/3' is no shard"},
+        BadInput{"more_shards_than_scenes",
+                 {"run", "quick", "--shard", "1/9", "-o", "r.json"},
+                 "at most 8 shards"},
+        BadInput{"resume_without_a_name", {"run", "quick", "--resume"}, "--output"},
+        BadInput{"merge_into_nothing", {"merge", "a.json"}, "--output"},
+        BadInput{"merge_of_no_file", {"merge", "a.json", "-o", "b.json"}, "a.json: cannot be opened"},
         BadInput{"compare_of_one", {"compare", "a.json"}, "NEW"},
         BadInput{
             "compare_within_less_than_nothing", {"compare", "a", "b", "--tolerance", "-1"}, "--tolerance"},

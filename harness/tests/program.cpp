@@ -77,13 +77,13 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::filesy
 }
 
 Outcome interrupt_program(const std::vector<std::string>& arguments, const std::string& sign,
-                          const std::filesystem::path& directory) {
+                          const std::filesystem::path& directory, int signal) {
   const TemporaryFolder streams;
   const std::string output = streams.path() / "output", errors = streams.path() / "errors";
   const pid_t process = fork();
   if (process < 0) throw std::runtime_error("no process");
   if (process == 0) become_program(arguments, directory, output, errors);
-  if (wait_for(sign, errors, process)) kill(process, SIGINT);
+  if (wait_for(sign, errors, process)) kill(process, signal);
   int status = 0;
   waitpid(process, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -28,8 +29,9 @@ struct Outcome {
 /// Run the built program with `arguments`, in `directory`, and wait. Output and errors are not terminals.
 Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& directory = ".");
 
-/// The same, with an interrupt, as Ctrl-C sends it, as soon as the program has written `sign` to its errors.
+/// The same, with a signal, or with an interrupt, as Ctrl-C sends it, as soon as the program has written `sign` to its
+/// errors.
 Outcome interrupt_program(const std::vector<std::string>& arguments, const std::string& sign,
-                          const std::filesystem::path& directory);
+                          const std::filesystem::path& directory, int signal = SIGINT);
 
 }  // namespace rayshoot::test

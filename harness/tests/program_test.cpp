@@ -220,5 +220,94 @@ TEST(Interrupt, EndsARunWithAReportOfWhatWasDone) {
   EXPECT_THAT(files, ElementsAre("report.json")) << "nothing half-written";
 }
 
+/// A run without times, whose numbers are the same each time: three scenes at once and one that takes a second.
+std::vector<std::string> counted_run(const std::string& output, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"run",     "--rays",      "whitted@64",      "--technique",
+                                     "bvh_sah", "--technique", "octree_glassner", "--counts-only",
+                                     "-o",      output};
+  for (const char* scene : {"tetra:1", "balls:1", "tetra:2", "tree:10"})
+    arguments.insert(arguments.end(), {"--scene", scene});
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// What two runs of one plan have in common: all but when and how long.
+std::string contents(const report::Report& report) {
+  report::Report same = report;
+  same.run = {};
+  same.environment.load.reset();
+  for (report::Measurement& cell : same.measurements) cell.build_ns.clear();
+  return report::to_json(same);
+}
+
+report::Report read(const TemporaryFolder& folder, const std::string& name) {
+  return report::read_report((folder.path() / name).string());
+}
+
+std::vector<std::string> files_in(const TemporaryFolder& folder) {
+  std::vector<std::string> files;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+    files.push_back(file.path().filename());
+  return files;
+}
+
+TEST(Resume, GoesOnWhereARunWasKilled) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(counted_run("whole.json"), folder.path()).status, 0);
+  interrupt_program(counted_run("report.json"), "6 of 8 cells", folder.path(), SIGKILL);
+  EXPECT_THAT(files_in(folder), UnorderedElementsAre("whole.json", "report.json.unfinished"));
+  const std::size_t done = read(folder, "report.json.unfinished").scenes.size();
+  EXPECT_GE(done, 2u);
+  EXPECT_LT(done, 4u);
+  const Outcome resumed = run_program(counted_run("report.json", {"--resume"}), folder.path());
+  EXPECT_EQ(resumed.status, 0) << resumed.errors;
+  EXPECT_THAT(resumed.errors, HasSubstr(fmt::format("of {} cells", 8 - 2 * done))) << "only what was missing";
+  EXPECT_THAT(files_in(folder), UnorderedElementsAre("whole.json", "report.json"));
+  EXPECT_EQ(contents(read(folder, "report.json")), contents(read(folder, "whole.json")));
+}
+
+TEST(Resume, GoesOnWhereARunWasInterrupted) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(counted_run("whole.json"), folder.path()).status, 0);
+  EXPECT_EQ(interrupt_program(counted_run("report.json"), "4 of 8 cells", folder.path()).status, 130);
+  EXPECT_FALSE(read(folder, "report.json").run.complete);
+  EXPECT_EQ(run_program(counted_run("report.json", {"--resume"}), folder.path()).status, 0);
+  EXPECT_EQ(contents(read(folder, "report.json")), contents(read(folder, "whole.json")));
+  EXPECT_TRUE(read(folder, "report.json").run.complete);
+}
+
+TEST(Resume, RefusesAnotherCommandAndNeedsAName) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> run{"run",     "--scene", "tetra:1", "--technique",
+                                     "bvh_sah", "-o",      "r.json",  "--counts-only"};
+  ASSERT_EQ(run_program(run, folder.path()).status, 0);
+  auto other = run;
+  other[2] = "tetra:2";
+  other.push_back("--resume");
+  const Outcome refused = run_program(other, folder.path());
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("r.json was begun by another command"));
+  auto again = run;
+  again.push_back("--resume");
+  EXPECT_EQ(run_program(again, folder.path()).status, 0) << "of what is complete nothing is left to do";
+  EXPECT_EQ(run_program({"run", "--scene", "tetra:1", "--resume"}, folder.path()).status, 2);
+}
+
+TEST(Shards, AreTogetherWhatOneRunIs) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(counted_run("whole.json"), folder.path()).status, 0);
+  for (const std::string shard : {"1", "2", "3"})
+    ASSERT_EQ(run_program(counted_run(shard + ".json", {"--shard", shard + "/3"}), folder.path()).status, 0);
+  const Outcome merged =
+      run_program({"merge", "1.json", "2.json", "3.json", "-o", "merged.json"}, folder.path());
+  EXPECT_EQ(merged.status, 0) << merged.errors;
+  EXPECT_THAT(merged.output, HasSubstr("4 scenes, 8 cells"));
+  EXPECT_EQ(contents(read(folder, "merged.json")), contents(read(folder, "whole.json")));
+  const Outcome twice = run_program({"merge", "1.json", "1.json", "-o", "twice.json"}, folder.path());
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.errors, HasSubstr("two runs have the scene tetra:1/curves"));
+  EXPECT_THAT(files_in(folder), Not(Contains("twice.json")));
+}
+
 }  // namespace
 }  // namespace rayshoot::test
