@@ -17,9 +17,9 @@ body{margin:0 auto;max-width:78rem;padding:1rem;font:16px/1.5 system-ui,sans-ser
 h1{font-size:1.7rem;margin:.5rem 0 0}h2{font-size:1.25rem;margin:2.2rem 0 .6rem;border-bottom:1px solid var(--rule)}
 a{color:var(--link)}p{max-width:46rem;margin:.4rem 0}.subtitle{color:var(--faint);margin-top:.1rem;overflow-wrap:anywhere}
 nav{display:flex;flex-wrap:wrap;gap:.2rem 1rem;margin:.8rem 0}
-.scroll{overflow-x:auto;margin:1rem 0 .3rem}
+.scroll{overflow-x:auto;margin:0 0 .3rem}
 table{border-collapse:collapse;font-size:.84rem;font-variant-numeric:tabular-nums;line-height:1.35}
-caption{text-align:left;font-weight:600;padding:.3rem 0;font-size:.95rem}
+h3{font-size:.95rem;margin:1.2rem 0 .2rem;overflow-wrap:anywhere}
 th,td{padding:.16rem .55rem;text-align:right;white-space:nowrap}
 thead th{border-bottom:2px solid var(--rule);vertical-align:bottom;font-weight:600}
 thead span{display:block;font-weight:400;color:var(--faint);font-size:.92em;min-height:1em}
@@ -30,13 +30,13 @@ th.words{text-align:left}td.words{text-align:left;white-space:normal;overflow-wr
 .sortable thead th{cursor:pointer}.sortable th[aria-sort=ascending]::after{content:" ▲"}.sortable th[aria-sort=descending]::after{content:" ▼"}
 ul.notes{font-size:.84rem;color:var(--faint);margin:.2rem 0 1rem;padding-left:1.2rem;max-width:60rem;overflow-wrap:anywhere}
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,30rem),1fr));gap:1.2rem}
-figure{margin:0;break-inside:avoid}figure h3{font-size:.95rem;margin:.2rem 0}figcaption{font-size:.84rem;color:var(--faint)}
+figure{margin:0;break-inside:avoid}figure h3{margin:.2rem 0}figcaption{font-size:.84rem;color:var(--faint)}
 svg.plot{display:block;width:100%;height:auto;max-width:44rem}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1rem;font-size:.88rem}dt{font-weight:600}dd{margin:0}
 @media (max-width:34rem){body{padding:.6rem}th:first-child{max-width:8.5rem}th,td{padding:.16rem .35rem}dl{grid-template-columns:1fr}dd{margin:0 0 .4rem 1rem}}
 @media print{:root{color-scheme:light;--ink:#000;--faint:#333;--ground:#fff;--panel:#f2f2f2;--rule:#aaa;--link:#000;--bad:#000}
 body{max-width:none;padding:0;font-size:10pt}nav{display:none}.scroll{overflow:visible}table{font-size:6.5pt}th,td{padding:.08rem .25rem}
-ul.notes,figcaption,dl{font-size:7pt}tr{break-inside:avoid}h2,h3,caption{break-after:avoid}.figures{grid-template-columns:1fr 1fr}th:first-child{position:static}}
+ul.notes,figcaption,dl{font-size:7pt}tr{break-inside:avoid}h2,h3{break-after:avoid}.figures{grid-template-columns:1fr 1fr}th:first-child{position:static}}
 )";
 
 constexpr const char* kScript = R"(
@@ -101,9 +101,9 @@ std::string html_table(const Table& table) {
   const Page page = page_of(table);
   if (table.rows.empty() || page.columns.empty())
     return fmt::format("<p><strong>{}</strong></p>\n{}", xml_escaped(table.title), notes_list(table.notes));
-  std::string result =
-      fmt::format("<div class=\"scroll\"><table class=\"sortable\">\n<caption>{}</caption>\n{}<tbody>\n",
-                  xml_escaped(table.title), head_of(page));
+  std::string result = fmt::format(
+      "<h3>{0}</h3>\n<div class=\"scroll\"><table class=\"sortable\" aria-label=\"{0}\">\n{1}<tbody>\n",
+      xml_escaped(table.title), head_of(page));
   for (const auto& row : page.rows) result += row_of(page, row);
   return result + "</tbody></table></div>\n" + notes_list(table.notes);
 }

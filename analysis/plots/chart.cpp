@@ -103,7 +103,7 @@ bool Chart::name(Point value, const std::string& text) {
 void Chart::legend(const std::vector<std::pair<std::string, MarkerStyle>>& series) {
   double widest = 0;
   for (const auto& [text, style] : series)
-    widest = std::max(widest, kSmallCharacter * static_cast<double>(display_width(text)) + 24);
+    widest = std::max(widest, kSmallCharacter * static_cast<double>(display_width(text)) + 30);
   const auto columns =
       static_cast<std::size_t>(std::max(1.0, std::floor((kPlotWidth - 10) / std::max(widest, 1.0))));
   const std::size_t rows = (series.size() + columns - 1) / columns;

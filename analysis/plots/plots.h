@@ -27,6 +27,8 @@ struct PlotSet {
 
 /// Equation (3) against the tests that were counted, with the line of equality.
 PlotSet predicted_measured_plots(const std::vector<Group>& groups);
+/// Times that the best cost model predicts against those that were measured.
+PlotSet model_time_plots(const std::vector<Group>& groups);
 /// Wrong answers and errors in distance against run time, with the frontier.
 PlotSet error_time_plots(const std::vector<Group>& groups);
 /// Object tests, volume tests and steps per ray, technique by technique.

@@ -110,8 +110,8 @@ std::string file_name_of(const std::string& text) {
 }
 
 std::vector<PlotSet> all_plots(const std::vector<Group>& groups) {
-  return {predicted_measured_plots(groups), error_time_plots(groups), work_bars_plots(groups),
-          build_trace_plots(groups), object_scaling_plots(groups)};
+  return {predicted_measured_plots(groups), model_time_plots(groups),  error_time_plots(groups),
+          work_bars_plots(groups),          build_trace_plots(groups), object_scaling_plots(groups)};
 }
 
 }  // namespace rayshoot::analysis

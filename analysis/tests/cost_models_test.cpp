@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <regex>
 
 #include "analysis/cost_models/verdicts.h"
+#include "analysis/plots/plots.h"
 #include "analysis/tests/find_cell.h"
 
 namespace rayshoot::analysis {
@@ -225,6 +227,30 @@ TEST(Validation, FailsWhereABoundIsNotKept) {
   EXPECT_THAT(
       find_cell(validation_tables(disordered.validation, false).at(0), "havran, float", "verdict").text,
       HasSubstr("FAILS: Spearman below 1.00"));
+}
+
+/// Havran's law, which its model finds: all points lie on the line of equality.
+TEST(ModelTime, ShowsTheModelThatErrsLeast) {
+  const Report report = report_by_law(havrans_law);
+  const std::vector<Group> all = groups(report);
+  const PlotSet set = model_time_plots(all);
+  ASSERT_THAT(set.plots, SizeIs(1));
+  EXPECT_THAT(set.plots[0].title, HasSubstr("havran"));
+  std::smatch line;
+  const std::string& svg = set.plots[0].svg;
+  ASSERT_TRUE(
+      std::regex_search(svg, line, std::regex("reference\" d=\"M([0-9.]+) ([0-9.]+)L([0-9.]+) ([0-9.]+)\"")));
+  const double x0 = std::stod(line[1]), y0 = std::stod(line[2]), x1 = std::stod(line[3]),
+               y1 = std::stod(line[4]);
+  const std::regex circle("cx=\"([0-9.]+)\" cy=\"([0-9.]+)\"");
+  std::size_t points = 0;
+  for (std::sregex_iterator match(svg.begin(), svg.end(), circle), end; match != end; ++match) {
+    const double x = std::stod((*match)[1]), y = std::stod((*match)[2]);
+    if (y > y0 + 30) continue;  // the legend
+    ++points;
+    EXPECT_NEAR(y0 + (x - x0) / (x1 - x0) * (y1 - y0), y, 0.3);
+  }
+  EXPECT_EQ(points, 30u);
 }
 
 /// One scene has no other to be predicted from: a bound that cannot be checked is not kept.

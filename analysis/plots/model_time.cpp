@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include "analysis/cost_models/verdicts.h"
+#include "analysis/plots/chart.h"
+#include "analysis/plots/plots.h"
+#include "analysis/plots/series.h"
+#include "analysis/tables/comparison.h"
+#include "analysis/tables/page.h"
+
+namespace rayshoot::analysis {
+
+namespace {
+
+/// The model that errs least in each precision.
+std::map<std::string, const ModelFit*> best_fits(const std::vector<ModelFit>& fits) {
+  std::map<std::string, std::pair<double, const ModelFit*>> best;
+  for (const ModelFit& fit : fits) {
+    const auto error = verdict_of(fit, {}).median_error;
+    if (!error) continue;
+    const auto [found, is_new] = best.emplace(fit.precision, std::pair(*error, &fit));
+    if (!is_new && *error < found->second.first) found->second = {*error, &fit};
+  }
+  std::map<std::string, const ModelFit*> result;
+  for (const auto& [precision, fit] : best) result[precision] = fit.second;
+  return result;
+}
+
+Plot plot_of(const ModelFit& fit, const SeriesStyles& styles) {
+  std::vector<double> values;
+  for (const ModelCell& cell : fit.cells)
+    if (cell.predicted) values.insert(values.end(), {cell.measured, *cell.predicted});
+  Chart chart(Axis(Scale::logarithmic, values, "time measured, ns per ray"),
+              Axis(Scale::logarithmic, values, fmt::format("predicted by {}", fit.model->id)), 400);
+  chart.equality();
+  std::vector<std::string> labels;
+  for (const ModelCell& cell : fit.cells) {
+    if (!cell.predicted || !(*cell.predicted > 0)) continue;
+    const std::string& label = cell.entry->label;
+    chart.svg().marker(
+        chart.at(cell.measured, *cell.predicted), styles(label),
+        fmt::format("{}, {}: {} ns measured, {} predicted", label, title_of(*cell.group, false),
+                    significant(cell.measured), significant(*cell.predicted)));
+    labels.push_back(label);
+  }
+  chart.legend(styles.legend(labels));
+  const std::string title =
+      fmt::format("Time that a cost model predicts: {}, {}", fit.model->id, fit.precision);
+  return {fmt::format("model-time-{}", file_name_of(fit.precision)), title,
+          fmt::format(
+              "{}: the model with the least median error. Every scene is predicted from the others; on the "
+              "dashed line it is right.",
+              fit.model->formula),
+          chart.svg().element(title)};
+}
+
+}  // namespace
+
+PlotSet model_time_plots(const std::vector<Group>& groups) {
+  PlotSet set{.kind = "Time that cost models predict"};
+  const SeriesStyles styles(groups);
+  const auto fits = fit_models(groups, {cost_models().begin(), cost_models().end()});
+  for (const auto& [precision, fit] : best_fits(fits)) set.plots.push_back(plot_of(*fit, styles));
+  if (set.plots.empty())
+    set.left_out = "no scene could be predicted from others: it takes two that were counted and timed";
+  return set;
+}
+
+}  // namespace rayshoot::analysis
