@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "analysis/compare/exact_counts.h"
 #include "analysis/statistics/multiple.h"
@@ -16,6 +18,7 @@ namespace rayshoot::analysis {
 
 namespace {
 
+using report::Grading;
 using report::Measurement;
 using report::Report;
 
@@ -35,10 +38,24 @@ bool same_cell(const Measurement& a, const Measurement& b) {
   return same_group(a, b) && a.technique == b.technique && a.config == b.config;
 }
 
-const Measurement* counterpart(const Report& report, const Measurement& cell) {
-  const auto& cells = report.measurements;
-  const auto found = std::find_if(cells.begin(), cells.end(),
-                                  [&](const Measurement& other) { return same_cell(cell, other); });
+bool same_cell(const Grading& a, const Grading& b) {
+  const auto key = [](const Grading& g) {
+    return std::tie(g.torture_case, g.setting, g.technique, g.config, g.scalar, g.intersector,
+                    g.flush_to_zero);
+  };
+  return key(a) == key(b);
+}
+
+std::string group_title(const Grading& cell) {
+  return fmt::format("{}, {}, {}{}", cell.torture_case, cell.setting,
+                     precision_of({.scalar = cell.scalar, .intersector = cell.intersector}),
+                     cell.flush_to_zero ? ", flushed" : "");
+}
+
+template <class OfCell>
+const OfCell* counterpart(const std::vector<OfCell>& cells, const OfCell& cell) {
+  const auto found =
+      std::find_if(cells.begin(), cells.end(), [&](const OfCell& other) { return same_cell(cell, other); });
   return found == cells.end() ? nullptr : &*found;
 }
 
@@ -52,16 +69,17 @@ std::vector<std::string> changed(const std::vector<Listed>& before, const std::v
   return names;
 }
 
-std::vector<CountChange> changed_counts(const Measurement& before, const Measurement& after) {
-  const auto old_counts = exact_counts(before), new_counts = exact_counts(after);
+using Counts = std::map<std::string, std::string>;
+
+std::vector<CountChange> changed_counts(const Counts& old_counts, const Counts& new_counts) {
   const auto text = [](const auto& counts, const std::string& name) {
     const auto found = counts.find(name);
     return found == counts.end() ? std::string("absent") : found->second;
   };
   // What was not measured of an answer that is wrong or failed is no further change.
   const std::string status = "verdict.status";
-  if (old_counts.at(status) != new_counts.at(status))
-    return {{status, old_counts.at(status), new_counts.at(status)}};
+  if (text(old_counts, status) != text(new_counts, status))
+    return {{status, text(old_counts, status), text(new_counts, status)}};
   std::set<std::string> names;
   for (const auto* counts : {&old_counts, &new_counts})
     for (const auto& [name, count] : *counts) names.insert(name);
@@ -132,20 +150,29 @@ class Comparer {
     comparison_.inputs_changed = changed(before.scenes, after.scenes);
     for (std::string& rays : changed(before.ray_sets, after.ray_sets))
       comparison_.inputs_changed.push_back(std::move(rays));
-    for (const Report* report : {&before, &after})
+    for (const Report* report : {&before, &after}) {
       for (const Measurement& cell : report->measurements) labels_.add(cell.technique, cell.config);
-    for (const Measurement& cell : before.measurements)
-      if (const Measurement* other = counterpart(after, cell))
-        pair(cell, *other);
-      else
-        comparison_.only_before.push_back(name(cell));
-    for (const Measurement& cell : after.measurements)
-      if (!counterpart(before, cell)) comparison_.only_after.push_back(name(cell));
+      for (const Grading& cell : report->gradings) labels_.add(cell.technique, cell.config);
+    }
+    compare_lists(before.measurements, after.measurements);
+    compare_lists(before.gradings, after.gradings);
     take_times();
   }
 
  private:
-  std::string name(const Measurement& cell) const {
+  template <class OfCell>
+  void compare_lists(const std::vector<OfCell>& before, const std::vector<OfCell>& after) {
+    for (const OfCell& cell : before)
+      if (const OfCell* other = counterpart(after, cell))
+        pair(cell, *other);
+      else
+        comparison_.only_before.push_back(name(cell));
+    for (const OfCell& cell : after)
+      if (!counterpart(before, cell)) comparison_.only_after.push_back(name(cell));
+  }
+
+  template <class OfCell>
+  std::string name(const OfCell& cell) const {
     return fmt::format("{} ({})", labels_(cell.technique, cell.config), group_title(cell));
   }
 
@@ -161,12 +188,19 @@ class Comparer {
                                  .after = &after,
                                  .before_ns = ns_per_ray(*comparison_.before, before),
                                  .after_ns = ns_per_ray(*comparison_.after, after),
-                                 .counts = changed_counts(before, after)});
+                                 .counts = changed_counts(exact_counts(before), exact_counts(after))});
+  }
+
+  void pair(const Grading& before, const Grading& after) {
+    comparison_.cells.push_back({.group = group_title(before),
+                                 .label = labels_(before.technique, before.config),
+                                 .counts = changed_counts(exact_counts(before), exact_counts(after))});
   }
 
   void take_times() {
     std::vector<Judged> judged;
     for (ComparedCell& cell : comparison_.cells) {
+      if (!cell.before) continue;
       if (cell.before->trace_threads == cell.after->trace_threads)
         take(cell, cell.trace, &Measurement::trace_ns, 0, judged);
       take(cell, cell.build, &Measurement::build_ns, kLeastBuildNs, judged);

@@ -32,9 +32,10 @@ struct CountChange {
 };
 
 struct ComparedCell {
-  /// Scene, rays and precision.
+  /// Scene, rays and precision; of the numerical suite case, setting and precision.
   std::string group;
   std::string label;
+  /// Null for answers of the numerical suite, which have no times.
   const report::Measurement *before = nullptr, *after = nullptr;
   /// Nanoseconds a ray; absent where a cell was not timed.
   std::optional<double> before_ns, after_ns;

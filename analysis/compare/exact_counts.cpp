@@ -10,7 +10,10 @@ namespace rayshoot::analysis {
 
 namespace {
 
-/// Goes through the members of an object of a report and keeps its numbers.
+using ConfigMap = std::map<std::string, report::ConfigValue>;
+
+/// Goes through the members of an object of a report and keeps its numbers; words and configurations are what it is, not
+/// what was counted.
 class NumberCollector {
  public:
   NumberCollector(std::string path, std::map<std::string, std::string>& numbers)
@@ -19,18 +22,25 @@ class NumberCollector {
   template <class T>
   void required(const std::string& name, const T& value) {
     const std::string path = fmt::format("{}.{}", path_, name);
-    if constexpr (std::is_arithmetic_v<T>) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      return;
+    } else if constexpr (std::is_arithmetic_v<T>) {
       numbers_[path] = fmt::format("{}", value);
     } else {
       NumberCollector below(path, numbers_);
       members(value, below);
     }
   }
+  void required(const std::string&, const ConfigMap&) {}
   template <class T>
   void required(const std::string& name, const std::map<std::string, T>& values) {
     NumberCollector below(fmt::format("{}.{}", path_, name), numbers_);
     for (const auto& [key, value] : values) below.required(key, value);
   }
+  template <class Names>
+  void choice(const char*, const std::string&, const Names&) {}
+  template <class Names>
+  void optional_choice(const char*, const std::string&, const Names&) {}
   template <class T>
   void optional(const std::string& name, const std::optional<T>& value) {
     if (value) required(name, *value);
@@ -64,6 +74,12 @@ std::map<std::string, std::string> exact_counts(const report::Measurement& measu
   collect("strict_work", measurement.strict_work, numbers);
   collect("structure", measurement.structure, numbers);
   collect("errors", measurement.errors, numbers);
+  return numbers;
+}
+
+std::map<std::string, std::string> exact_counts(const report::Grading& grading) {
+  std::map<std::string, std::string> numbers;
+  collect("grading", std::optional(grading), numbers);
   return numbers;
 }
 

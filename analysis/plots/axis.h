@@ -6,14 +6,12 @@
 
 namespace rayshoot::analysis {
 
-enum class Scale { linear, logarithmic };
-
-/// A range of values and where they lie on a line.
+/// A range of values above 0 and where their logarithms lie on a line.
 class Axis {
  public:
-  /// Covers the values with some room around them, to whole decades or steps where those are near. Logarithmic axes
-  /// leave values of 0 or less out, and linear ones begin at 0.
-  Axis(Scale scale, std::span<const double> values, std::string title);
+  /// Covers the values with some room around them, as far as they lie between 10^-100 and 10^100: what does not has no
+  /// place on paper.
+  Axis(std::span<const double> values, std::string title);
 
   /// 0 at the low end, 1 at the high one.
   double position(double value) const;
@@ -29,8 +27,7 @@ class Axis {
   std::vector<Tick> ticks() const;
 
  private:
-  Scale scale_;
-  double low_ = 0, high_ = 1;
+  double low_, high_;
   std::string title_;
 };
 

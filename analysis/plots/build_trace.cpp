@@ -17,8 +17,7 @@ Plot plot_of(const Precision& precision, std::vector<MeanRow> rows, const std::v
              const SeriesStyles& styles) {
   std::vector<double> traces, builds;
   for (const MeanRow& row : rows) traces.push_back(*row.means[0]), builds.push_back(*row.means[1]);
-  Chart chart(Axis(Scale::logarithmic, builds, "build, ms"),
-              Axis(Scale::logarithmic, traces, "trace, ns per ray"), 400);
+  Chart chart(Axis(builds, "build, ms"), Axis(traces, "trace, ns per ray"), 400);
   // From the cheapest build on, what traces faster than all before.
   std::sort(rows.begin(), rows.end(),
             [](const MeanRow& a, const MeanRow& b) { return a.means[1] < b.means[1]; });
@@ -32,9 +31,9 @@ Plot plot_of(const Precision& precision, std::vector<MeanRow> rows, const std::v
   std::vector<std::string> without_room;
   for (const MeanRow& row : rows) {
     const Point point{*row.means[1], *row.means[0]};
-    chart.svg().marker(chart.at(point.x, point.y), styles(row.label),
-                       fmt::format("{}: build {} ms, trace {} ns per ray", row.label, significant(point.x),
-                                   significant(point.y)));
+    chart.point(point, styles(row.label),
+                fmt::format("{}: build {} ms, trace {} ns per ray", row.label, significant(point.x),
+                            significant(point.y)));
     if (!chart.name(point, row.label)) without_room.push_back(row.label);
   }
   chart.legend(styles.legend(without_room));

@@ -50,6 +50,10 @@ Point Chart::at(double x, double y) const {
           area_.bottom - y_.position(y) * (area_.bottom - area_.top)};
 }
 
+void Chart::point(Point value, MarkerStyle style, const std::string& tip) {
+  if (contains(value.x, value.y)) svg_.marker(at(value.x, value.y), style, tip);
+}
+
 void Chart::equality() {
   const double low = std::max(x_.low(), y_.low()), high = std::min(x_.high(), y_.high());
   if (low < high) svg_.line(at(low, low), at(high, high), "reference");
@@ -58,6 +62,7 @@ void Chart::equality() {
 void Chart::frontier(const std::vector<Point>& values, const std::string& style) {
   std::vector<Point> corners;
   for (const Point& value : values) {
+    if (!contains(value.x, value.y)) continue;
     if (!corners.empty()) corners.push_back({at(value.x, value.y).x, corners.back().y});
     corners.push_back(at(value.x, value.y));
   }
@@ -77,11 +82,13 @@ bool Chart::is_free(const Box& box) const {
 
 void Chart::keep_clear(Point value) {
   constexpr double radius = 4;
+  if (!contains(value.x, value.y)) return;
   const Point center = at(value.x, value.y);
   taken_.push_back({center.x - radius, center.y - radius, center.x + radius, center.y + radius});
 }
 
 bool Chart::name(Point value, const std::string& text) {
+  if (!contains(value.x, value.y)) return false;
   const Point center = at(value.x, value.y);
   const double width = kSmallCharacter * static_cast<double>(display_width(text)), height = 11;
   // Right, left, above and below, then at the corners.

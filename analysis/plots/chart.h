@@ -23,6 +23,8 @@ class Chart {
   const Axis& y() const { return y_; }
   Svg& svg() { return svg_; }
 
+  /// A marker, where the chart has a place for it.
+  void point(Point value, MarkerStyle style, const std::string& tip);
   /// The line of equality, where it lies within both axes.
   void equality();
   /// Steps through the points that no other lies left of and below, which must be sorted by x.

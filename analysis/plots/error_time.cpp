@@ -57,15 +57,14 @@ Plot plot_of(const WorkPrecisionDiagram& diagram, const ErrorKind& kind, const M
   std::vector<double> times, errors;
   for (const WorkPrecision& point : diagram.points)
     times.push_back(point.ns_per_ray), errors.push_back(kind.error(point));
-  Chart chart(Axis(Scale::logarithmic, times, "time, ns per ray"),
-              Axis(Scale::logarithmic, errors, kind.axis));
+  Chart chart(Axis(times, "time, ns per ray"), Axis(errors, kind.axis));
   chart.frontier(frontier_of(diagram.points, kind));
   std::map<std::string, MarkerStyle> legend;
   for (const WorkPrecision& point : diagram.points) {
     const MarkerStyle marker = markers.at(point.label);
-    chart.svg().marker(chart.at(point.ns_per_ray, kind.error(point)), marker,
-                       fmt::format("{}: {} ns per ray, {}", point.label, significant(point.ns_per_ray),
-                                   significant(kind.error(point))));
+    chart.point({point.ns_per_ray, kind.error(point)}, marker,
+                fmt::format("{}: {} ns per ray, {}", point.label, significant(point.ns_per_ray),
+                            significant(kind.error(point))));
     legend.emplace(point.label, marker);
   }
   chart.legend({legend.begin(), legend.end()});

@@ -29,17 +29,16 @@ Plot plot_of(const ModelFit& fit, const SeriesStyles& styles) {
   std::vector<double> values;
   for (const ModelCell& cell : fit.cells)
     if (cell.predicted) values.insert(values.end(), {cell.measured, *cell.predicted});
-  Chart chart(Axis(Scale::logarithmic, values, "time measured, ns per ray"),
-              Axis(Scale::logarithmic, values, fmt::format("predicted by {}", fit.model->id)), 400);
+  Chart chart(Axis(values, "time measured, ns per ray"),
+              Axis(values, fmt::format("predicted by {}", fit.model->id)), 400);
   chart.equality();
   std::vector<std::string> labels;
   for (const ModelCell& cell : fit.cells) {
     if (!cell.predicted || !(*cell.predicted > 0)) continue;
     const std::string& label = cell.entry->label;
-    chart.svg().marker(
-        chart.at(cell.measured, *cell.predicted), styles(label),
-        fmt::format("{}, {}: {} ns measured, {} predicted", label, title_of(*cell.group, false),
-                    significant(cell.measured), significant(*cell.predicted)));
+    chart.point({cell.measured, *cell.predicted}, styles(label),
+                fmt::format("{}, {}: {} ns measured, {} predicted", label, title_of(*cell.group, false),
+                            significant(cell.measured), significant(*cell.predicted)));
     labels.push_back(label);
   }
   chart.legend(styles.legend(labels));

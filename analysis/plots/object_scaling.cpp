@@ -85,8 +85,8 @@ void draw(Chart& chart, const std::string& label, const Curve& curve, MarkerStyl
     if (chart.contains(objects, law(objects))) fitted.push_back(chart.at(objects, law(objects)));
   chart.svg().polyline(fitted, fmt::format("fit l{}", style.colour));
   for (std::size_t i = 0; i < curve.objects.size(); ++i)
-    chart.svg().marker(
-        chart.at(curve.objects[i], curve.values[i]), style,
+    chart.point(
+        {curve.objects[i], curve.values[i]}, style,
         fmt::format("{}: {} at {:.0f} objects", label, significant(curve.values[i]), curve.objects[i]));
 }
 
@@ -98,7 +98,7 @@ std::optional<Plot> plot_of(const Family& family, const Growing& growing, const 
     objects.insert(objects.end(), curve.objects.begin(), curve.objects.end());
     values.insert(values.end(), curve.values.begin(), curve.values.end());
   }
-  Chart chart(Axis(Scale::logarithmic, objects, "objects"), Axis(Scale::logarithmic, values, growing.axis));
+  Chart chart(Axis(objects, "objects"), Axis(values, growing.axis));
   std::vector<std::pair<std::string, MarkerStyle>> legend;
   for (const auto& [label, curve] : all) {
     const auto law = fit_power_law(curve.objects, curve.values);

@@ -55,12 +55,12 @@ Plot plot_of(const std::vector<Pair>& pairs, const Kind& kind, const SeriesStyle
   // Both axes have one range, so that the line of equality is their diagonal.
   std::vector<double> values;
   for (const Pair& pair : pairs) values.push_back(pair.measured), values.push_back(pair.predicted);
-  Chart chart(Axis(Scale::logarithmic, values, fmt::format("{} per ray, counted", kind.words)),
-              Axis(Scale::logarithmic, values, "predicted by equation (3)"), 400);
+  Chart chart(Axis(values, fmt::format("{} per ray, counted", kind.words)),
+              Axis(values, "predicted by equation (3)"), 400);
   chart.equality();
   std::vector<std::string> labels;
   for (const Pair& pair : pairs) {
-    chart.svg().marker(chart.at(pair.measured, pair.predicted), styles(pair.label), pair.tip);
+    chart.point({pair.measured, pair.predicted}, styles(pair.label), pair.tip);
     labels.push_back(pair.label);
   }
   chart.legend(styles.legend(labels));

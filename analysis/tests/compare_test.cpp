@@ -152,7 +152,41 @@ TEST(Compare, FlagsEveryCountThatChanges) {
   EXPECT_EQ(flagged([](Measurement& m) { ++m.strict_work->steps; }), "strict_work.steps");
   EXPECT_EQ(flagged([](Measurement& m) { ++m.structure->bytes; }), "structure.bytes");
   EXPECT_EQ(flagged([](Measurement& m) { ++m.verdict.checked_rays; }), "verdict.checked_rays");
-  EXPECT_EQ(flagged([](Measurement& m) { m.verdict.status = report::Status::wrong; }), "verdict.status");
+  // What is not counted of a wrong answer is no further change.
+  EXPECT_EQ(flagged([](Measurement& m) { m.verdict.status = report::Status::wrong, m.work.reset(); }),
+            "verdict.status");
+}
+
+/// Reports of the numerical suite have counts as well.
+TEST(Compare, FlagsCountsOfTheNumericalSuite) {
+  Report before;
+  before.gradings = {{.torture_case = "closed_vertex",
+                      .setting = "level=2",
+                      .property = "always_hit",
+                      .technique = "bvh_sah",
+                      .scalar = "float",
+                      .rays = 1000,
+                      .leaks = 0},
+                     {.torture_case = "closed_vertex",
+                      .setting = "level=3",
+                      .property = "always_hit",
+                      .technique = "bvh_sah",
+                      .scalar = "float",
+                      .rays = 1000,
+                      .leaks = 0}};
+  Report after = before;
+  EXPECT_FALSE(compare(before, after, {}).failed());
+  after.gradings[1].leaks = 1;
+  const Comparison comparison = compare(before, after, {});
+  EXPECT_TRUE(comparison.failed());
+  ASSERT_THAT(comparison.cells, SizeIs(2));
+  EXPECT_THAT(comparison.cells[0].counts, IsEmpty());
+  EXPECT_EQ(comparison.cells[1].group, "closed_vertex, level=3, float");
+  EXPECT_EQ(comparison.cells[1].counts.at(0).name, "grading.leaks");
+  EXPECT_EQ(comparison.cells[1].counts.at(0).after, "1");
+  after.gradings.pop_back();
+  EXPECT_THAT(compare(before, after, {}).only_before, ElementsAre("bvh_sah (closed_vertex, level=3, float)"));
+  EXPECT_THAT(render_compare(comparison, Format::text, true), HasSubstr("grading.leaks"));
 }
 
 TEST(Compare, CountsToTheLastDigit) {

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <regex>
 #include <set>
+#include <tuple>
 
 #include "analysis/tests/small_report.h"
 
@@ -67,6 +69,32 @@ TEST(ReportPage, EscapesWhatWouldBeMarkup) {
   const std::string page = page_of(report);
   EXPECT_THAT(faults(page), IsEmpty());
   EXPECT_THAT(page, Not(HasSubstr("alert('")));
+}
+
+/// Numbers at the ends of their ranges: nothing is drawn at a place that is no number.
+TEST(ReportPage, DrawsNothingWithoutAPlace) {
+  const double most = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::denorm_min();
+  const std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
+  for (const auto& [time, count, prediction] :
+       {std::tuple(0.0, std::uint64_t{0}, 0.0), std::tuple(most, all, most), std::tuple(least, all, least),
+        std::tuple(1.0, std::uint64_t{1}, most), std::tuple(most, std::uint64_t{0}, 1.0)}) {
+    report::Report report = small_report();
+    for (report::Measurement& cell : report.measurements) {
+      if (!cell.trace_ns.empty()) cell.trace_ns.assign(6, time);
+      cell.build_ns.assign(6, time);
+      cell.work = cell.strict_work = report::Work{1, count, count, count, count, count, count, count};
+      cell.structure = report::Structure{count, count, count, count, count, count};
+      cell.predicted = report::Predicted{prediction, prediction};
+      cell.errors = report::Errors{1, {{"wrong_object", count}}, report::Ulps{time, time, time, time}, {}};
+    }
+    report.scenes[0].objects = count;
+    report.measurements[1].trace_ns = {1, 2, 3, 4, 5, 6};
+    const ReportPage page = report_page({report});
+    EXPECT_THAT(faults(page.html), IsEmpty());
+    for (const auto& [name, svg] : page.plots)
+      EXPECT_FALSE(std::regex_search(svg, std::regex("=\"[^\"]*(nan|inf)[^\"]*\"")))
+          << name << time << " " << count;
+  }
 }
 
 TEST(ReportPage, NeedsNoOtherFile) {
