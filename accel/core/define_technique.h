@@ -21,6 +21,17 @@ concept TestsObjects = requires(const A a, const typename A::Scratch& scratch) {
   a.object_test(scratch);
 };
 
+/// A technique that brings searches of its own, in the instructions of the processor it runs on, for the geometries that
+/// they serve: the answers are those of `visit`.
+template <class A>
+concept HasKernels = requires(const A a, const Geometry<typename A::Scalar>& arranged,
+                              std::span<const Ray<typename A::Scalar>> rays, std::span<Hit<typename A::Scalar>> hits,
+                              std::span<std::uint8_t> blocked) {
+  { a.kernels_serve(arranged) } -> std::same_as<bool>;
+  {a.kernel_closest(arranged, rays, hits)};
+  {a.kernel_any(arranged, rays, blocked)};
+};
+
 /// Derives the batch interface of an engine from a technique's `visit`.
 template <Visitable A>
 class TechniqueEngine final : public Engine<typename A::Scalar> {
@@ -45,12 +56,16 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
 
   void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
                EngineScratch& scratch) const override {
+    if constexpr (HasKernels<A>)
+      if (technique_.kernels_serve(*geometry_)) return technique_.kernel_closest(*geometry_, rays, hits);
     auto& own = static_cast<Scratch&>(scratch).technique;
     with_test(own, [&](const auto& test) { closest_of_all(test, rays, hits, own); });
   }
 
   void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked,
            EngineScratch& scratch) const override {
+    if constexpr (HasKernels<A>)
+      if (technique_.kernels_serve(*geometry_)) return technique_.kernel_any(*geometry_, rays, blocked);
     auto& own = static_cast<Scratch&>(scratch).technique;
     with_test(own, [&](const auto& test) { any_of_all(test, rays, blocked, own); });
   }

@@ -1,0 +1,136 @@
+// Wide bounding volume hierarchy (the modern reference of Arvo & Kirk §4.3, for one ray and many lanes)
+// I. Wald, C. Benthin & S. Boulos, "Getting rid of packets", 2008; H. Ylitie, T. Karras & S. Laine, "Efficient incoherent
+// ray traversal on GPUs through compressed wide BVHs", 2017, for the build.
+//
+// Idea       A node has up to eight children, whose boxes are tested at once. A binary tree by the surface area heuristic
+//            is widened to the tree of least expected cost that can be made of it by leaving out nodes; small subtrees
+//            become leaves of up to eight objects, whose triangles are tested at once as well.
+// Parameters TODO
+// Cost       TODO
+// Weak       TODO
+
+#include "accel/core/define_technique.h"
+#include "accel/parts/wide_build.h"
+#include "accel/parts/wide_avx2.h"
+#include "accel/parts/wide_kernels.h"
+#include "accel/parts/wide_walk.h"
+
+namespace rayshoot {
+
+namespace {
+
+template <class Real>
+class BvhWide {
+ public:
+  using Scalar = Real;
+  struct Config {
+    std::string instructions;
+    bool sweep;
+    WideCosts costs;
+  };
+  struct Scratch {};
+
+  static TechniqueInfo info() {
+    return {.id = "bvh_wide",
+            .title = "Wide bounding volume hierarchy",
+            .family = "bounding_volume",
+            .survey_section = "4",
+            .paper = "Wald, Benthin & Boulos 2008; Ylitie, Karras & Laine 2017",
+            .parameters = {choice_parameter("instructions", "best", {"best", "avx2"}, "instructions of the timed searches"),
+                           choice_parameter("split", "sweep", {"sweep", "binned"},
+                                            "how ranges of at most 256 objects are split"),
+                           integer_parameter("max_objects", 8, 1, 8, "objects a leaf may hold at the most"),
+                           real_parameter("leaf_cost", 1, 0, 100,
+                                          "cost of testing a leaf's objects, in tests of a node's children")}};
+  }
+  static Config configure(const Arguments& arguments) {
+    return {.instructions = arguments.text("instructions"),
+            .sweep = arguments.text("split") == "sweep",
+            .costs = {.leaf = arguments.real("leaf_cost"),
+                      .max_objects = static_cast<std::size_t>(arguments.integer("max_objects"))}};
+  }
+
+  static BvhWide build(const BuildInput<Real>& in, const Config& config) {
+    BvhWide bvh;
+    std::vector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
+    bvh.tree_ = widened_tree(sah_tree<Real>(objects, {.sweep = config.sweep, .max_objects = 1}), config.costs);
+    bvh.order_.reserve(objects.size());
+    for (const BoxedObject<Real>& object : objects) bvh.order_.push_back(object.object);
+    if constexpr (std::same_as<Real, float>)
+      if (triangles_suit(in.geometry)) bvh.triangles_ = WideTriangles(in.geometry, bvh.order_, bvh.tree_);
+    if (config.instructions == "best" && has_avx512()) bvh.kernels_ = &kWideKernelsAvx512;
+    return bvh;
+  }
+
+  Scratch scratch() const { return {}; }
+  std::span<const std::uint32_t> order() const { return order_; }
+
+  template <class Counter, class L>
+  void visit(const Ray<Real>& ray, Scratch&, Counter count, L& leaf) const {
+    if (tree_.empty() || !can_hit(ray)) return;
+    const WideCrossings<WideAvx2, Real> crossings(ray);
+    walk_wide<WideAvx2>(tree_, crossings, count, [&] { return leaf.reach(); },
+                        [&](WideChild which) {
+                          count.cell(false);
+                          for (std::uint32_t i = 0; i < which.count(); ++i)
+                            if (leaf(which.first() + i)) return true;
+                          return false;
+                        });
+  }
+
+  bool kernels_serve(const Geometry<Real>& arranged) const {
+    return std::same_as<Real, float> && triangles_suit(arranged);
+  }
+  void kernel_closest(const Geometry<Real>& arranged, std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits) const {
+    if constexpr (std::same_as<Real, float>) kernels_->closest({tree_, triangles_, arranged, order_}, rays, hits);
+  }
+  void kernel_any(const Geometry<Real>& arranged, std::span<const Ray<Real>> rays,
+                  std::span<std::uint8_t> blocked) const {
+    if constexpr (std::same_as<Real, float>) kernels_->any({tree_, triangles_, arranged, order_}, rays, blocked);
+  }
+
+  StructureStats structure() const {
+    StructureStats stats{.nodes = tree_.nodes.size(),
+                         .references = order_.size(),
+                         .max_depth = tree_.max_depth,
+                         .bytes = tree_.bytes() + triangles_.bytes() + order_.size() * sizeof(order_[0])};
+    for (const WideNode<Real>& node : tree_.nodes)
+      for (std::uint32_t which = 0; which < node.children; ++which) stats.leaves += node.child[which].is_leaf();
+    stats.nodes += stats.leaves;
+    return stats;
+  }
+
+  /// Equation (3): a node's children are tested as often as the node is hit, and so are a leaf's objects.
+  Prediction<Real> predicted() const {
+    Prediction<Real> sum{0, 0, tree_.bounds};
+    if (!tree_.empty()) predict(tree_.nodes[0], 1, sum);
+    return sum;
+  }
+
+ private:
+  static bool triangles_suit(const Geometry<Real>& geometry) {
+    return geometry.mostly_triangles() && geometry.intersector() == Intersector::fast;
+  }
+
+  void predict(const WideNode<Real>& node, double probability, Prediction<Real>& sum) const {
+    sum.volume_tests += probability * node.children;
+    for (std::uint32_t which = 0; which < node.children; ++which) {
+      const double of_child = node.box(which).surface_area() / tree_.bounds.surface_area();
+      if (node.child[which].is_leaf())
+        sum.object_tests += of_child * node.child[which].count();
+      else
+        predict(tree_.nodes[node.child[which].node()], of_child, sum);
+    }
+  }
+
+  WideTree<Real> tree_;
+  WideTriangles triangles_;
+  std::vector<std::uint32_t> order_;
+  const WideKernels* kernels_ = &kWideKernelsAvx2;
+};
+
+}  // namespace
+
+RAYSHOOT_TECHNIQUE(bvh_wide, BvhWide)
+
+}  // namespace rayshoot

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace rayshoot {
+
+/// What is special to an instruction set in bvh_wide: here the baseline, which every processor has that runs the program.
+struct WideAvx2 {
+  /// Objects tested at once: their coordinates in floats, and in doubles.
+  static constexpr std::uint32_t kObjects = 4;
+  using Floats = __m128;
+  using Doubles = __m256d;
+
+  static Floats load(const float* from) { return _mm_loadu_ps(from); }
+  static Floats spread(float value) { return _mm_set1_ps(value); }
+  static Doubles spread(double value) { return _mm256_set1_pd(value); }
+  static Doubles widened(Floats a) { return _mm256_cvtps_pd(a); }
+  static Floats rounded(Doubles a) { return _mm256_cvtpd_ps(a); }
+  static Floats larger(Floats a, Floats b) { return _mm_max_ps(a, b); }
+  static Floats smaller(Floats a, Floats b) { return _mm_min_ps(a, b); }
+  /// `a`, where `sign` is negative `b`.
+  static Floats chosen(Floats a, Floats b, Floats sign) { return _mm_blendv_ps(a, b, sign); }
+  /// The sign bits of all lanes, and lanes with some of them turned.
+  static Doubles signs(Doubles a) { return _mm256_and_pd(a, _mm256_set1_pd(-0.0)); }
+  static Doubles turned(Doubles a, Doubles signs) { return _mm256_xor_pd(a, signs); }
+  static Doubles magnitudes(Doubles a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
+
+  // One bit for each lane.
+  static unsigned not_above(Floats a, Floats b) { return bits(_mm_cmp_ps(a, b, _CMP_LE_OQ)); }
+  static unsigned below(Floats a, Floats b) { return bits(_mm_cmp_ps(a, b, _CMP_LT_OQ)); }
+  static unsigned no_numbers(Floats a) { return bits(_mm_cmp_ps(a, a, _CMP_UNORD_Q)); }
+  static unsigned covered(Doubles u, Doubles v, Doubles approach) {
+    const Doubles zero = _mm256_setzero_pd();
+    const Doubles within = _mm256_and_pd(_mm256_cmp_pd(u, zero, _CMP_GE_OQ), _mm256_cmp_pd(v, zero, _CMP_GE_OQ));
+    const Doubles both = _mm256_and_pd(_mm256_cmp_pd(_mm256_add_pd(u, v), approach, _CMP_LE_OQ),
+                                       _mm256_cmp_pd(approach, zero, _CMP_NEQ_OQ));
+    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_and_pd(within, both)));
+  }
+  static unsigned not_above(__m256 a, __m256 b) {
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)));
+  }
+
+ private:
+  static unsigned bits(__m128 a) { return static_cast<unsigned>(_mm_movemask_ps(a)); }
+};
+
+}  // namespace rayshoot

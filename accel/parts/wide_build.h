@@ -1,0 +1,20 @@
+#pragma once
+
+#include "accel/parts/sah_build.h"
+#include "accel/parts/wide_tree.h"
+
+namespace rayshoot {
+
+/// What the builder of wide trees weighs.
+struct WideCosts {
+  /// Cost of testing a leaf's objects at once, in units of the test of a node's children.
+  double leaf = 1;
+  std::size_t max_objects = kWideWidth;
+};
+
+/// The wide tree of least expected cost (equation (3)) that can be made of a binary tree by leaving out nodes and by
+/// turning small subtrees into leaves. The binary tree's leaves hold one object each.
+template <class Real>
+WideTree<Real> widened_tree(const PairTree<Real>& binary, const WideCosts& costs);
+
+}  // namespace rayshoot

@@ -1,0 +1,18 @@
+#include "accel/parts/wide_avx2.h"
+#include "accel/parts/wide_search.h"
+
+namespace rayshoot {
+
+const WideKernels kWideKernelsAvx2{"avx2", WideSearch<WideAvx2>::closest_of_all, WideSearch<WideAvx2>::any_of_all};
+
+float other_hit_distance(const WideScene& scene, std::uint32_t place, Ray<float> ray, float reach) {
+  ray.t_max = reach;
+  return scene.geometry.hit_distance(place, ray);
+}
+
+bool has_avx512() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+}
+
+}  // namespace rayshoot

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "accel/parts/wide_triangles.h"
+
+// Read where code for a kind of processor begins: all that is not included is a template over its instructions.
+
+namespace rayshoot {
+
+/// A ray prepared for testing the triangles of leaves: `hit_distance` of several at once, to the last bit.
+template <class Isa>
+class WideTriangleTest {
+ public:
+  using Floats = typename Isa::Floats;
+  using Doubles = typename Isa::Doubles;
+
+  explicit WideTriangleTest(const Ray<float>& ray) {
+    const Crossings<float> crossings(ray);
+    for (int axis = 0; axis < 3; ++axis) {
+      wide_origin_[axis] = Isa::spread(double{ray.origin[axis]});
+      direction_[axis] = Isa::spread(double{ray.direction[axis]});
+      origin_[axis] = Isa::spread(crossings.origin[axis]);
+      earliest_[axis] = Isa::spread(crossings.earliest[axis]);
+      latest_[axis] = Isa::spread(crossings.latest[axis]);
+    }
+    start_ = Isa::spread(ray.t_min);
+  }
+
+  struct Distances {
+    /// One bit for each object that is hit.
+    unsigned bits;
+    Floats t;
+  };
+
+  /// The hits at `reach` at the farthest of objects from number `first` on among the `count` of a leaf.
+  Distances operator()(const float* leaf, std::uint32_t count, std::uint32_t first, float reach) const {
+    // Reject triangles unless the ray passes on the same side of all three edges.
+    Floats corner[3][3];
+    for (std::uint32_t which = 0; which < 3; ++which)
+      for (std::uint32_t axis = 0; axis < 3; ++axis)
+        corner[which][axis] = Isa::load(leaf + (3 * which + axis) * count + first);
+    Doubles ab[3], ac[3], to_a[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const Doubles a = Isa::widened(corner[0][axis]);
+      ab[axis] = Isa::widened(corner[1][axis]) - a;
+      ac[axis] = Isa::widened(corner[2][axis]) - a;
+      to_a[axis] = a - wide_origin_[axis];
+    }
+    Doubles normal[3], q[3];
+    cross(ab, ac, normal), cross(to_a, direction_, q);
+    const Doubles approach = dot(normal, direction_), sign = Isa::signs(approach);
+    const Doubles u = Isa::turned(dot(ac, q), sign), v = Isa::turned(-dot(ab, q), sign);
+    const std::uint32_t left = count - first;
+    const unsigned in_use = left < Isa::kObjects ? (1u << left) - 1 : (1u << Isa::kObjects) - 1;
+    Distances found{Isa::covered(u, v, Isa::magnitudes(approach)) & in_use, {}};
+    if (found.bits == 0) return found;
+
+    // Measure the distances along the ray to the planes of the triangles.
+    confine(Isa::rounded(dot(normal, to_a) / approach), corner, reach, found);
+    return found;
+  }
+
+ private:
+  static Doubles dot(const Doubles* a, const Doubles* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  static void cross(const Doubles* a, const Doubles* b, Doubles* product) {
+    product[0] = a[1] * b[2] - a[2] * b[1];
+    product[1] = a[2] * b[0] - a[0] * b[2];
+    product[2] = a[0] * b[1] - a[1] * b[0];
+  }
+
+  /// Hold distances to the intervals in which the ray is inside the triangles' bounds, and to its own.
+  void confine(Floats t, const Floats (&corner)[3][3], float reach, Distances& found) const {
+    Floats lo[3], hi[3], magnitude = Isa::spread(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+      lo[axis] = Isa::smaller(corner[0][axis], Isa::smaller(corner[1][axis], corner[2][axis]));
+      hi[axis] = Isa::larger(corner[0][axis], Isa::larger(corner[1][axis], corner[2][axis]));
+      magnitude = Isa::larger(magnitude, Isa::larger(Isa::larger(lo[axis], -lo[axis]), Isa::larger(hi[axis], -hi[axis])));
+    }
+    const Floats margin = Isa::spread(padding(1.0f)) * magnitude;
+    Floats enter[3], exit[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const Floats low = (lo[axis] - margin) - origin_[axis], high = (hi[axis] + margin) - origin_[axis];
+      enter[axis] = Isa::chosen(low, high, earliest_[axis]) * earliest_[axis];
+      exit[axis] = Isa::chosen(high, low, earliest_[axis]) * latest_[axis];
+    }
+    const Floats enters = Isa::larger(Isa::larger(enter[0], enter[1]), enter[2]);
+    const Floats exits = Isa::smaller(Isa::smaller(exit[0], exit[1]), exit[2]);
+    found.t = Isa::smaller(Isa::larger(t, enters), exits);
+    found.bits &= Isa::not_above(enters, exits) & Isa::below(start_, found.t) & Isa::not_above(found.t, Isa::spread(reach));
+  }
+
+  Doubles wide_origin_[3], direction_[3];
+  Floats origin_[3], earliest_[3], latest_[3], start_;
+};
+
+}  // namespace rayshoot

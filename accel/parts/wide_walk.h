@@ -1,0 +1,208 @@
+#pragma once
+
+#include <immintrin.h>
+
+#include <bit>
+
+#include "accel/parts/pair_tree.h"
+#include "accel/parts/wide_tree.h"
+
+// Read where code for a kind of processor begins: all that is not included is a template over its instructions.
+
+namespace rayshoot {
+
+/// The children of a node that a ray meets: one bit for each, and for each a key: the distance, not below 0, where the ray
+/// enters it, as an integer that compares likewise, with the number of the child in its lowest bits. Keys are never above
+/// the distance.
+template <class Isa>
+struct MetChildren {
+  static constexpr int kChildBits = kWideWidth - 1;
+
+  unsigned bits;
+  __m256i keys;
+
+  static MetChildren of(unsigned bits, __m256 distances) {
+    const __m256i numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    const __m256i cleared = _mm256_andnot_si256(_mm256_set1_epi32(kChildBits), _mm256_castps_si256(distances));
+    return {bits, _mm256_or_si256(cleared, numbers)};
+  }
+  /// No key of a child that is entered at `distance` or before is above this one.
+  static int last_key(float distance) { return std::bit_cast<int>(distance) | kChildBits; }
+};
+
+/// A ray prepared for testing the boxes of wide nodes: `Crossings::inside` for all at once, to the last bit.
+template <class Isa, class Real>
+class WideCrossings;
+
+template <class Isa>
+class WideCrossings<Isa, float> {
+ public:
+  explicit WideCrossings(const Ray<float>& ray) {
+    const Crossings<float> crossings(ray);
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis] = _mm256_set1_ps(crossings.origin[axis]);
+      earliest[axis] = _mm256_set1_ps(crossings.earliest[axis]);
+      latest[axis] = _mm256_set1_ps(crossings.latest[axis]);
+      near_[axis] = crossings.inverse[axis] < 0;
+    }
+    start_ = _mm256_set1_ps(ray.t_min);
+  }
+
+  MetChildren<Isa> met(const WideNode<float>& node, float reach) const {
+    const __m256 enter = _mm256_max_ps(_mm256_max_ps(enters(node, 0), enters(node, 1)), _mm256_max_ps(enters(node, 2), start_));
+    const __m256 exit = _mm256_min_ps(_mm256_min_ps(exits(node, 0), exits(node, 1)),
+                                      _mm256_min_ps(exits(node, 2), _mm256_set1_ps(reach)));
+    return MetChildren<Isa>::of(Isa::not_above(enter, exit), enter);
+  }
+
+  __m256 origin[3], earliest[3], latest[3];
+
+ private:
+  __m256 enters(const WideNode<float>& node, int axis) const {
+    return (_mm256_load_ps(node.planes[axis][near_[axis]]) - origin[axis]) * earliest[axis];
+  }
+  __m256 exits(const WideNode<float>& node, int axis) const {
+    return (_mm256_load_ps(node.planes[axis][near_[axis] ^ 1]) - origin[axis]) * latest[axis];
+  }
+
+  __m256 start_;
+  std::size_t near_[3];
+};
+
+template <class Isa>
+class WideCrossings<Isa, double> {
+ public:
+  explicit WideCrossings(const Ray<double>& ray) : crossings_(ray), start_(ray.t_min) {}
+
+  MetChildren<Isa> met(const WideNode<double>& node, double reach) const {
+    const Half low = half(node, 0, reach), high = half(node, 1, reach);
+    return MetChildren<Isa>::of(low.bits | high.bits << 4, _mm256_set_m128(high.distances, low.distances));
+  }
+
+ private:
+  struct Half {
+    unsigned bits;
+    /// Rounded to floats, which keeps their order.
+    __m128 distances;
+  };
+  Half half(const WideNode<double>& node, int which, double reach) const {
+    __m256d enter = _mm256_set1_pd(start_), exit = _mm256_set1_pd(reach);
+    for (int axis = 0; axis < 3; ++axis) {
+      const int near = crossings_.inverse[axis] < 0;
+      const __m256d origin = _mm256_set1_pd(crossings_.origin[axis]);
+      const __m256d enters = _mm256_load_pd(node.planes[axis][near] + 4 * which) - origin;
+      const __m256d exits = _mm256_load_pd(node.planes[axis][near ^ 1] + 4 * which) - origin;
+      enter = _mm256_max_pd(enters * _mm256_set1_pd(crossings_.earliest[axis]), enter);
+      exit = _mm256_min_pd(exits * _mm256_set1_pd(crossings_.latest[axis]), exit);
+    }
+    const auto bits = static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(enter, exit, _CMP_LE_OQ)));
+    return {bits, _mm256_cvtpd_ps(enter)};
+  }
+
+  Crossings<double> crossings_;
+  double start_;
+};
+
+/// Children that wait for their turn, with their keys.
+template <class Isa>
+class WideStack {
+ public:
+  bool pop(int last_key, WideChild& child) {
+    do {
+      if (top_ == 0) return false;
+      --top_;
+    } while (keys_[top_] > last_key);
+    child = children_[top_];
+    return true;
+  }
+  /// Take in all children that were met but the nearest, which is returned.
+  template <class Real>
+  WideChild push_farther(const WideNode<Real>& node, const MetChildren<Isa>& met) {
+    const unsigned first = static_cast<unsigned>(std::countr_zero(met.bits)), others = met.bits & (met.bits - 1);
+    if (others == 0) return node.child[first];
+    alignas(32) int keys[kWideWidth];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(keys), met.keys);
+    const unsigned second = static_cast<unsigned>(std::countr_zero(others));
+    if ((others & (others - 1)) == 0) {
+      const bool swapped = keys[second] < keys[first];
+      const unsigned near = swapped ? second : first, far = swapped ? first : second;
+      keys_[top_] = keys[far];
+      children_[top_++] = node.child[far];
+      return node.child[near];
+    }
+    return push_sorted(node, met);
+  }
+
+ private:
+  template <class Real>
+  WideChild push_sorted(const WideNode<Real>& node, const MetChildren<Isa>& met) {
+    const __m256i is_met = _mm256_cmpgt_epi32(
+        _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(met.bits)), _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128)),
+        _mm256_setzero_si256());
+    // What was not met sorts behind everything.
+    const __m256i sorted = descending(_mm256_or_si256(met.keys, _mm256_andnot_si256(is_met, _mm256_set1_epi32(-1))));
+    const __m256i children = _mm256_permutevar8x32_epi32(
+        _mm256_loadu_si256(reinterpret_cast<const __m256i*>(node.child)), sorted);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(keys_ + top_), sorted);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(children_ + top_), children);
+    top_ += static_cast<unsigned>(std::popcount(met.bits)) - 1;
+    return children_[top_];
+  }
+
+  /// Sort eight numbers by a network of 19 comparisons in six layers.
+  static __m256i descending(__m256i a) {
+    a = layer<0b11001100>(a, _mm256_shuffle_epi32(a, 0x4E));
+    a = layer<0b11110000>(a, _mm256_permute2x128_si256(a, a, 1));
+    a = layer<0b10101010>(a, _mm256_shuffle_epi32(a, 0xB1));
+    a = layer<0b00110000>(a, _mm256_permute4x64_epi64(a, 0xD8));
+    a = layer<0b01010000>(a, _mm256_permutevar8x32_epi32(a, _mm256_setr_epi32(0, 4, 2, 6, 1, 5, 3, 7)));
+    return layer<0b01010100>(a, _mm256_permutevar8x32_epi32(a, _mm256_setr_epi32(0, 2, 1, 4, 3, 6, 5, 7)));
+  }
+  /// Of each number and its partner the smaller one in the places that are set, the larger in others.
+  template <int kSmaller>
+  static __m256i layer(__m256i a, __m256i partners) {
+    return _mm256_blend_epi32(_mm256_max_epi32(a, partners), _mm256_min_epi32(a, partners), kSmaller);
+  }
+
+  // Every level leaves all children of a node but one; stores write eight places at once.
+  static constexpr int kPlaces = kMaxSahDepth * (kWideWidth - 1) + kWideWidth;
+
+  int keys_[kPlaces];
+  WideChild children_[kPlaces];
+  unsigned top_ = 0;
+};
+
+/// The leaves of a wide hierarchy that a ray meets, near to far: of a node's children the nearest is entered, the others
+/// wait in order of distance until it is done.
+///   visit(leaf)  is called with each leaf, a WideChild; true ends the walk
+///   reach()      is the distance at which the walk may end; leaves that begin there are still visited
+template <class Isa, class Real, class Counter, class Reach, class Visit>
+void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count, const Reach& reach,
+               const Visit& visit) {
+  WideStack<Isa> stack;
+  WideChild current = WideChild::interior(0);
+  const WideNode<Real>* const nodes = tree.nodes.data();
+  while (true) {
+    if (current.is_leaf()) {
+      if (visit(current)) return;
+    } else {
+      const WideNode<Real>& node = nodes[current.node()];
+      count.step(), count.volume_tests(node.children);
+      const MetChildren<Isa> met = crossings.met(node, reach());
+      if (met.bits != 0) {
+        current = stack.push_farther(node, met);
+        continue;
+      }
+    }
+    if (!stack.pop(MetChildren<Isa>::last_key(static_cast<float>(reach())), current)) return;
+  }
+}
+
+/// Whether a ray can hit anything: its origin and direction are finite, and its interval holds a number.
+template <class Real>
+bool can_hit(const Ray<Real>& ray) {
+  const Vec3<Real> zero = (ray.origin - ray.origin) + (ray.direction - ray.direction);
+  return (zero == Vec3<Real>{}) & (ray.t_min < ray.t_max);
+}
+
+}  // namespace rayshoot
