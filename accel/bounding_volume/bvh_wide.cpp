@@ -68,7 +68,8 @@ class BvhWide {
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch&, Counter count, L& leaf) const {
     if (tree_.empty() || !can_hit(ray)) return;
-    const WideCrossings<WideAvx2, Real> crossings(ray);
+    const Crossings<Real> prepared(ray);
+    const WideCrossings<WideAvx2, Real> crossings(ray, prepared);
     walk_wide<WideAvx2>(tree_, crossings, count, [&] { return leaf.reach(); },
                         [&](WideChild which) {
                           count.cell(false);

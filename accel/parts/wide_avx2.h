@@ -27,6 +27,13 @@ struct WideAvx2 {
   static Doubles turned(Doubles a, Doubles signs) { return _mm256_xor_pd(a, signs); }
   static Doubles magnitudes(Doubles a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
 
+  /// The children whose bits are set, in order, and others behind.
+  static __m256i packed(__m256i children, unsigned bits) {
+    const std::uint64_t bytes = _pdep_u64(bits, 0x0101010101010101u) * 0xFF;
+    const std::uint64_t numbers = _pext_u64(0x0706050403020100u, bytes);
+    return _mm256_permutevar8x32_epi32(children, _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(numbers))));
+  }
+
   // One bit for each lane.
   static unsigned not_above(Floats a, Floats b) { return bits(_mm_cmp_ps(a, b, _CMP_LE_OQ)); }
   static unsigned below(Floats a, Floats b) { return bits(_mm_cmp_ps(a, b, _CMP_LT_OQ)); }

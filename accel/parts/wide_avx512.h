@@ -17,14 +17,19 @@ struct WideAvx512 {
   static Floats load(const float* from) { return _mm256_loadu_ps(from); }
   static Floats spread(float value) { return _mm256_set1_ps(value); }
   static Doubles spread(double value) { return _mm512_set1_pd(value); }
-  static Doubles widened(Floats a) { return __builtin_convertvector(a, Doubles); }
-  static Floats rounded(Doubles a) { return __builtin_convertvector(a, Floats); }
+  static Doubles widened(Floats a) { return _mm512_cvtps_pd(a); }
+  static Floats rounded(Doubles a) { return _mm512_cvtpd_ps(a); }
   static Floats larger(Floats a, Floats b) { return _mm256_max_ps(a, b); }
   static Floats smaller(Floats a, Floats b) { return _mm256_min_ps(a, b); }
   static Floats chosen(Floats a, Floats b, Floats sign) { return _mm256_blendv_ps(a, b, sign); }
   static Doubles signs(Doubles a) { return _mm512_and_pd(a, _mm512_set1_pd(-0.0)); }
   static Doubles turned(Doubles a, Doubles signs) { return _mm512_xor_pd(a, signs); }
   static Doubles magnitudes(Doubles a) { return _mm512_andnot_pd(_mm512_set1_pd(-0.0), a); }
+
+  /// The children whose bits are set, in order, and others behind.
+  static __m256i packed(__m256i children, unsigned bits) {
+    return _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), children);
+  }
 
   static unsigned not_above(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   static unsigned below(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _CMP_LT_OQ); }

@@ -5,6 +5,8 @@
 #pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx512bw"))), apply_to = function)
 #else
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
+// GCC 12's own intrinsics begin with vectors that they leave open on purpose.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
 #include "accel/parts/wide_avx512.h"

@@ -36,8 +36,9 @@ struct WideSearch {
     const Ray<float> ray = started(given);
     Hit<float> hit;
     if (scene.tree.empty() || !can_hit(ray)) return hit;
-    const WideCrossings<Isa, float> crossings(ray);
-    const WideTriangleTest<Isa> test(ray);
+    const Crossings<float> prepared(ray);
+    const WideCrossings<Isa, float> crossings(ray, prepared);
+    const WideTriangleTest<Isa> test(ray, prepared);
     float reach = ray.t_max;
     const auto keep = [&](float t, std::uint32_t object) {
       if (t > reach || (t == hit.t && object > hit.object)) return;
@@ -73,10 +74,11 @@ struct WideSearch {
     const Ray<float> ray = started(given);
     bool blocked = false;
     if (scene.tree.empty() || !can_hit(ray)) return blocked;
-    const WideCrossings<Isa, float> crossings(ray);
-    const WideTriangleTest<Isa> test(ray);
-    walk_wide<Isa>(
-        scene.tree, crossings, NoCount{}, [&] { return ray.t_max; },
+    const Crossings<float> prepared(ray);
+    const WideCrossings<Isa, float> crossings(ray, prepared);
+    const WideTriangleTest<Isa> test(ray, prepared);
+    walk_wide_unordered<Isa>(
+        scene.tree, crossings, NoCount{}, ray.t_max,
         [&](WideChild leaf) {
           const std::uint32_t count = leaf.count();
           const float* const rows = scene.triangles.leaf(leaf);

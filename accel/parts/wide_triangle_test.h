@@ -13,17 +13,7 @@ class WideTriangleTest {
   using Floats = typename Isa::Floats;
   using Doubles = typename Isa::Doubles;
 
-  explicit WideTriangleTest(const Ray<float>& ray) {
-    const Crossings<float> crossings(ray);
-    for (int axis = 0; axis < 3; ++axis) {
-      wide_origin_[axis] = Isa::spread(double{ray.origin[axis]});
-      direction_[axis] = Isa::spread(double{ray.direction[axis]});
-      origin_[axis] = Isa::spread(crossings.origin[axis]);
-      earliest_[axis] = Isa::spread(crossings.earliest[axis]);
-      latest_[axis] = Isa::spread(crossings.latest[axis]);
-    }
-    start_ = Isa::spread(ray.t_min);
-  }
+  WideTriangleTest(const Ray<float>& ray, const Crossings<float>& crossings) : ray_(ray), crossings_(crossings) {}
 
   struct Distances {
     /// One bit for each object that is hit.
@@ -38,16 +28,17 @@ class WideTriangleTest {
     for (std::uint32_t which = 0; which < 3; ++which)
       for (std::uint32_t axis = 0; axis < 3; ++axis)
         corner[which][axis] = Isa::load(leaf + (3 * which + axis) * count + first);
-    Doubles ab[3], ac[3], to_a[3];
+    Doubles ab[3], ac[3], to_a[3], direction[3];
     for (int axis = 0; axis < 3; ++axis) {
+      direction[axis] = Isa::spread(double{ray_.direction[axis]});
       const Doubles a = Isa::widened(corner[0][axis]);
       ab[axis] = Isa::widened(corner[1][axis]) - a;
       ac[axis] = Isa::widened(corner[2][axis]) - a;
-      to_a[axis] = a - wide_origin_[axis];
+      to_a[axis] = a - Isa::spread(double{ray_.origin[axis]});
     }
     Doubles normal[3], q[3];
-    cross(ab, ac, normal), cross(to_a, direction_, q);
-    const Doubles approach = dot(normal, direction_), sign = Isa::signs(approach);
+    cross(ab, ac, normal), cross(to_a, direction, q);
+    const Doubles approach = dot(normal, direction), sign = Isa::signs(approach);
     const Doubles u = Isa::turned(dot(ac, q), sign), v = Isa::turned(-dot(ab, q), sign);
     const std::uint32_t left = count - first;
     const unsigned in_use = left < Isa::kObjects ? (1u << left) - 1 : (1u << Isa::kObjects) - 1;
@@ -78,18 +69,19 @@ class WideTriangleTest {
     const Floats margin = Isa::spread(padding(1.0f)) * magnitude;
     Floats enter[3], exit[3];
     for (int axis = 0; axis < 3; ++axis) {
-      const Floats low = (lo[axis] - margin) - origin_[axis], high = (hi[axis] + margin) - origin_[axis];
-      enter[axis] = Isa::chosen(low, high, earliest_[axis]) * earliest_[axis];
-      exit[axis] = Isa::chosen(high, low, earliest_[axis]) * latest_[axis];
+      const Floats origin = Isa::spread(ray_.origin[axis]), earliest = Isa::spread(crossings_.earliest[axis]);
+      const Floats low = (lo[axis] - margin) - origin, high = (hi[axis] + margin) - origin;
+      enter[axis] = Isa::chosen(low, high, earliest) * earliest;
+      exit[axis] = Isa::chosen(high, low, earliest) * Isa::spread(crossings_.latest[axis]);
     }
     const Floats enters = Isa::larger(Isa::larger(enter[0], enter[1]), enter[2]);
     const Floats exits = Isa::smaller(Isa::smaller(exit[0], exit[1]), exit[2]);
     found.t = Isa::smaller(Isa::larger(t, enters), exits);
-    found.bits &= Isa::not_above(enters, exits) & Isa::below(start_, found.t) & Isa::not_above(found.t, Isa::spread(reach));
+    found.bits &= Isa::not_above(enters, exits) & Isa::below(Isa::spread(ray_.t_min), found.t) & Isa::not_above(found.t, Isa::spread(reach));
   }
 
-  Doubles wide_origin_[3], direction_[3];
-  Floats origin_[3], earliest_[3], latest_[3], start_;
+  const Ray<float>& ray_;
+  const Crossings<float>& crossings_;
 };
 
 }  // namespace rayshoot

@@ -37,12 +37,11 @@ class WideCrossings;
 template <class Isa>
 class WideCrossings<Isa, float> {
  public:
-  explicit WideCrossings(const Ray<float>& ray) {
-    const Crossings<float> crossings(ray);
+  WideCrossings(const Ray<float>& ray, const Crossings<float>& crossings) {
     for (int axis = 0; axis < 3; ++axis) {
-      origin[axis] = _mm256_set1_ps(crossings.origin[axis]);
-      earliest[axis] = _mm256_set1_ps(crossings.earliest[axis]);
-      latest[axis] = _mm256_set1_ps(crossings.latest[axis]);
+      origin_[axis] = _mm256_set1_ps(crossings.origin[axis]);
+      earliest_[axis] = _mm256_set1_ps(crossings.earliest[axis]);
+      latest_[axis] = _mm256_set1_ps(crossings.latest[axis]);
       near_[axis] = crossings.inverse[axis] < 0;
     }
     start_ = _mm256_set1_ps(ray.t_min);
@@ -55,24 +54,22 @@ class WideCrossings<Isa, float> {
     return MetChildren<Isa>::of(Isa::not_above(enter, exit), enter);
   }
 
-  __m256 origin[3], earliest[3], latest[3];
-
  private:
   __m256 enters(const WideNode<float>& node, int axis) const {
-    return (_mm256_load_ps(node.planes[axis][near_[axis]]) - origin[axis]) * earliest[axis];
+    return (_mm256_load_ps(node.planes[axis][near_[axis]]) - origin_[axis]) * earliest_[axis];
   }
   __m256 exits(const WideNode<float>& node, int axis) const {
-    return (_mm256_load_ps(node.planes[axis][near_[axis] ^ 1]) - origin[axis]) * latest[axis];
+    return (_mm256_load_ps(node.planes[axis][near_[axis] ^ 1]) - origin_[axis]) * latest_[axis];
   }
 
-  __m256 start_;
+  __m256 origin_[3], earliest_[3], latest_[3], start_;
   std::size_t near_[3];
 };
 
 template <class Isa>
 class WideCrossings<Isa, double> {
  public:
-  explicit WideCrossings(const Ray<double>& ray) : crossings_(ray), start_(ray.t_min) {}
+  WideCrossings(const Ray<double>& ray, const Crossings<double>& crossings) : crossings_(crossings), start_(ray.t_min) {}
 
   MetChildren<Isa> met(const WideNode<double>& node, double reach) const {
     const Half low = half(node, 0, reach), high = half(node, 1, reach);
@@ -99,54 +96,73 @@ class WideCrossings<Isa, double> {
     return {bits, _mm256_cvtpd_ps(enter)};
   }
 
-  Crossings<double> crossings_;
+  const Crossings<double>& crossings_;
   double start_;
 };
 
-/// Children that wait for their turn, with their keys.
+/// Children that wait for their turn. How many, the walk keeps to itself, where the compiler can see it.
 template <class Isa>
 class WideStack {
  public:
-  bool pop(int last_key, WideChild& child) {
+  /// Take the last child that `last_key` does not rule out; false where none is left.
+  bool pop(unsigned& waiting, int last_key, WideChild& child) const {
     do {
-      if (top_ == 0) return false;
-      --top_;
-    } while (keys_[top_] > last_key);
-    child = children_[top_];
+      if (waiting == 0) return false;
+      --waiting;
+    } while (keys_[waiting] > last_key);
+    child = children_[waiting];
     return true;
   }
-  /// Take in all children that were met but the nearest, which is returned.
+  bool pop(unsigned& waiting, WideChild& child) const {
+    if (waiting == 0) return false;
+    child = children_[--waiting];
+    return true;
+  }
+
+  /// Keep all children that were met but the nearest, which is returned.
   template <class Real>
-  WideChild push_farther(const WideNode<Real>& node, const MetChildren<Isa>& met) {
-    const unsigned first = static_cast<unsigned>(std::countr_zero(met.bits)), others = met.bits & (met.bits - 1);
+  WideChild push_farther(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met) {
+    const auto first = static_cast<unsigned>(std::countr_zero(met.bits));
+    const unsigned others = met.bits & (met.bits - 1);
     if (others == 0) return node.child[first];
+    if ((others & (others - 1)) != 0) return push_sorted(waiting, node, met);
+    const auto second = static_cast<unsigned>(std::countr_zero(others));
     alignas(32) int keys[kWideWidth];
     _mm256_store_si256(reinterpret_cast<__m256i*>(keys), met.keys);
-    const unsigned second = static_cast<unsigned>(std::countr_zero(others));
-    if ((others & (others - 1)) == 0) {
-      const bool swapped = keys[second] < keys[first];
-      const unsigned near = swapped ? second : first, far = swapped ? first : second;
-      keys_[top_] = keys[far];
-      children_[top_++] = node.child[far];
-      return node.child[near];
-    }
-    return push_sorted(node, met);
+    const bool swapped = keys[second] < keys[first];
+    const unsigned near = swapped ? second : first, far = swapped ? first : second;
+    keys_[waiting] = keys[far];
+    children_[waiting++] = node.child[far];
+    return node.child[near];
+  }
+
+  /// Keep all children that were met but the last, which is returned.
+  template <class Real>
+  WideChild push_others(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met) {
+    const __m256i packed = Isa::packed(children_of(node), met.bits);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(children_ + waiting), packed);
+    waiting += static_cast<unsigned>(std::popcount(met.bits)) - 1;
+    return children_[waiting];
   }
 
  private:
   template <class Real>
-  WideChild push_sorted(const WideNode<Real>& node, const MetChildren<Isa>& met) {
-    const __m256i is_met = _mm256_cmpgt_epi32(
-        _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(met.bits)), _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128)),
-        _mm256_setzero_si256());
+  static __m256i children_of(const WideNode<Real>& node) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(node.child));
+  }
+
+  template <class Real>
+  WideChild push_sorted(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met) {
+    const __m256i places = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i bits = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(met.bits)), places);
     // What was not met sorts behind everything.
-    const __m256i sorted = descending(_mm256_or_si256(met.keys, _mm256_andnot_si256(is_met, _mm256_set1_epi32(-1))));
-    const __m256i children = _mm256_permutevar8x32_epi32(
-        _mm256_loadu_si256(reinterpret_cast<const __m256i*>(node.child)), sorted);
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(keys_ + top_), sorted);
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(children_ + top_), children);
-    top_ += static_cast<unsigned>(std::popcount(met.bits)) - 1;
-    return children_[top_];
+    const __m256i missed = _mm256_cmpeq_epi32(bits, _mm256_setzero_si256());
+    const __m256i sorted = descending(_mm256_or_si256(met.keys, missed));
+    const __m256i children = _mm256_permutevar8x32_epi32(children_of(node), sorted);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(keys_ + waiting), sorted);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(children_ + waiting), children);
+    waiting += static_cast<unsigned>(std::popcount(met.bits)) - 1;
+    return children_[waiting];
   }
 
   /// Sort eight numbers by a network of 19 comparisons in six layers.
@@ -169,7 +185,6 @@ class WideStack {
 
   int keys_[kPlaces];
   WideChild children_[kPlaces];
-  unsigned top_ = 0;
 };
 
 /// The leaves of a wide hierarchy that a ray meets, near to far: of a node's children the nearest is entered, the others
@@ -180,6 +195,7 @@ template <class Isa, class Real, class Counter, class Reach, class Visit>
 void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count, const Reach& reach,
                const Visit& visit) {
   WideStack<Isa> stack;
+  unsigned waiting = 0;
   WideChild current = WideChild::interior(0);
   const WideNode<Real>* const nodes = tree.nodes.data();
   while (true) {
@@ -190,11 +206,35 @@ void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& cross
       count.step(), count.volume_tests(node.children);
       const MetChildren<Isa> met = crossings.met(node, reach());
       if (met.bits != 0) {
-        current = stack.push_farther(node, met);
+        current = stack.push_farther(waiting, node, met);
         continue;
       }
     }
-    if (!stack.pop(MetChildren<Isa>::last_key(static_cast<float>(reach())), current)) return;
+    if (!stack.pop(waiting, MetChildren<Isa>::last_key(static_cast<float>(reach())), current)) return;
+  }
+}
+
+/// The leaves of a wide hierarchy that a ray meets up to `reach`, in no order of distance: for those who look for any hit.
+template <class Isa, class Real, class Counter, class Visit>
+void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count, Real reach,
+                         const Visit& visit) {
+  WideStack<Isa> stack;
+  unsigned waiting = 0;
+  WideChild current = WideChild::interior(0);
+  const WideNode<Real>* const nodes = tree.nodes.data();
+  while (true) {
+    if (current.is_leaf()) {
+      if (visit(current)) return;
+    } else {
+      const WideNode<Real>& node = nodes[current.node()];
+      count.step(), count.volume_tests(node.children);
+      const MetChildren<Isa> met = crossings.met(node, reach);
+      if (met.bits != 0) {
+        current = stack.push_others(waiting, node, met);
+        continue;
+      }
+    }
+    if (!stack.pop(waiting, current)) return;
   }
 }
 
