@@ -27,11 +27,14 @@ struct WideAvx2 {
   static Doubles turned(Doubles a, Doubles signs) { return _mm256_xor_pd(a, signs); }
   static Doubles magnitudes(Doubles a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
 
-  /// The children whose bits are set, in order, and others behind.
-  static __m256i packed(__m256i children, unsigned bits) {
-    const std::uint64_t bytes = _pdep_u64(bits, 0x0101010101010101u) * 0xFF;
-    const std::uint64_t numbers = _pext_u64(0x0706050403020100u, bytes);
-    return _mm256_permutevar8x32_epi32(children, _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(numbers))));
+  /// The numbers whose bits are set; in place of others the largest.
+  static __m256i kept(__m256i numbers, unsigned bits) {
+    const __m256i places = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), places);
+    return _mm256_blendv_epi8(_mm256_set1_epi32(0x7FFFFFFF), numbers, _mm256_cmpeq_epi32(set, places));
+  }
+  static unsigned not_above(__m256i a, __m256i b) {
+    return 0xFF & ~static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpgt_epi32(a, b))));
   }
 
   // One bit for each lane.

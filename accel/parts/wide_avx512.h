@@ -26,10 +26,11 @@ struct WideAvx512 {
   static Doubles turned(Doubles a, Doubles signs) { return _mm512_xor_pd(a, signs); }
   static Doubles magnitudes(Doubles a) { return _mm512_andnot_pd(_mm512_set1_pd(-0.0), a); }
 
-  /// The children whose bits are set, in order, and others behind.
-  static __m256i packed(__m256i children, unsigned bits) {
-    return _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), children);
+  /// The numbers whose bits are set; in place of others the largest.
+  static __m256i kept(__m256i numbers, unsigned bits) {
+    return _mm256_mask_mov_epi32(_mm256_set1_epi32(0x7FFFFFFF), static_cast<__mmask8>(bits), numbers);
   }
+  static unsigned not_above(__m256i a, __m256i b) { return _mm256_cmple_epi32_mask(a, b); }
 
   static unsigned not_above(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   static unsigned below(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _CMP_LT_OQ); }

@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "accel/parts/branch.h"
 #include "accel/parts/pair_tree.h"
 #include "accel/parts/wide_tree.h"
 
@@ -25,6 +26,13 @@ struct MetChildren {
     const __m256i numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     const __m256i cleared = _mm256_andnot_si256(_mm256_set1_epi32(kChildBits), _mm256_castps_si256(distances));
     return {bits, _mm256_or_si256(cleared, numbers)};
+  }
+  /// The child with the least key of those whose bits are set.
+  unsigned nearest() const {
+    const __m256i kept = Isa::kept(keys, bits);
+    const __m128i four = _mm_min_epi32(_mm256_castsi256_si128(kept), _mm256_extracti128_si256(kept, 1));
+    const __m128i two = _mm_min_epi32(four, _mm_shuffle_epi32(four, 0x4E));
+    return static_cast<unsigned>(_mm_cvtsi128_si32(_mm_min_epi32(two, _mm_shuffle_epi32(two, 0xB1)))) & kChildBits;
   }
   /// No key of a child that is entered at `distance` or before is above this one.
   static int last_key(float distance) { return std::bit_cast<int>(distance) | kChildBits; }
@@ -100,6 +108,39 @@ class WideCrossings<Isa, double> {
   double start_;
 };
 
+#ifndef G1
+#define G1 guessed
+#endif
+#ifndef G2
+#define G2 guessed
+#endif
+#ifndef G3
+#define G3 guessed
+#endif
+#ifndef G4
+#define G4 guessed
+#endif
+#define PLAIN(a, b) (a)[b]
+/// children[which], found by a jump: the processor guesses it and goes on with the child while `which` is worked out.
+[[gnu::always_inline]] inline WideChild guessed(const WideChild* children, unsigned which) {
+  WideChild c;
+  switch (which) {
+    case 0: c = children[0]; keep_branch(); break;
+    case 1: c = children[1]; keep_branch(); break;
+    case 2: c = children[2]; keep_branch(); break;
+    case 3: c = children[3]; keep_branch(); break;
+    case 4: c = children[4]; keep_branch(); break;
+    case 5: c = children[5]; keep_branch(); break;
+    case 6: c = children[6]; keep_branch(); break;
+    case 7: c = children[7]; keep_branch(); break;
+    default: __builtin_unreachable();
+  }
+  return c;
+}
+
+/// Every level of a tree leaves children of one node behind that wait for their turn.
+inline constexpr int kWideLevels = kMaxSahDepth + 2;
+
 /// Children that wait for their turn. How many, the walk keeps to itself, where the compiler can see it.
 template <class Isa>
 class WideStack {
@@ -113,18 +154,13 @@ class WideStack {
     child = children_[waiting];
     return true;
   }
-  bool pop(unsigned& waiting, WideChild& child) const {
-    if (waiting == 0) return false;
-    child = children_[--waiting];
-    return true;
-  }
 
   /// Keep all children that were met but the nearest, which is returned.
   template <class Real>
   WideChild push_farther(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met) {
     const auto first = static_cast<unsigned>(std::countr_zero(met.bits));
     const unsigned others = met.bits & (met.bits - 1);
-    if (others == 0) return node.child[first];
+    if (others == 0) return G1(node.child, first);
     if ((others & (others - 1)) != 0) return push_sorted(waiting, node, met);
     const auto second = static_cast<unsigned>(std::countr_zero(others));
     alignas(32) int keys[kWideWidth];
@@ -133,16 +169,7 @@ class WideStack {
     const unsigned near = swapped ? second : first, far = swapped ? first : second;
     keys_[waiting] = keys[far];
     children_[waiting++] = node.child[far];
-    return node.child[near];
-  }
-
-  /// Keep all children that were met but the last, which is returned.
-  template <class Real>
-  WideChild push_others(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met) {
-    const __m256i packed = Isa::packed(children_of(node), met.bits);
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(children_ + waiting), packed);
-    waiting += static_cast<unsigned>(std::popcount(met.bits)) - 1;
-    return children_[waiting];
+    return G2(node.child, near);
   }
 
  private:
@@ -162,7 +189,7 @@ class WideStack {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(keys_ + waiting), sorted);
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(children_ + waiting), children);
     waiting += static_cast<unsigned>(std::popcount(met.bits)) - 1;
-    return children_[waiting];
+    return G3(node.child, met.nearest());
   }
 
   /// Sort eight numbers by a network of 19 comparisons in six layers.
@@ -218,23 +245,33 @@ void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& cross
 template <class Isa, class Real, class Counter, class Visit>
 void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count, Real reach,
                          const Visit& visit) {
-  WideStack<Isa> stack;
-  unsigned waiting = 0;
-  WideChild current = WideChild::interior(0);
+  struct Waiting {
+    const WideNode<Real>* node;
+    std::uint64_t bits;
+  };
+  Waiting levels[kWideLevels];
+  Waiting* top = levels;
   const WideNode<Real>* const nodes = tree.nodes.data();
+  WideChild current = WideChild::interior(0);
   while (true) {
     if (current.is_leaf()) {
       if (visit(current)) return;
     } else {
       const WideNode<Real>& node = nodes[current.node()];
       count.step(), count.volume_tests(node.children);
-      const MetChildren<Isa> met = crossings.met(node, reach);
-      if (met.bits != 0) {
-        current = stack.push_others(waiting, node, met);
+      const std::uint64_t bits = crossings.met(node, reach).bits;
+      if (bits != 0) {
+        current = G1(node.child, std::countr_zero(bits));
+        *top = {&node, bits & (bits - 1)};
+        top += top->bits != 0;
         continue;
       }
     }
-    if (!stack.pop(waiting, current)) return;
+    if (top == levels) return;
+    --top;
+    current = G4(top->node->child, std::countr_zero(top->bits));
+    top->bits &= top->bits - 1;
+    top += top->bits != 0;
   }
 }
 
