@@ -68,8 +68,7 @@ class BvhWide {
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch&, Counter count, L& leaf) const {
     if (tree_.empty() || !can_hit(ray)) return;
-    const Crossings<Real> prepared(ray);
-    const WideCrossings<WideAvx2, Real> crossings(ray, prepared);
+    const WideCrossings<WideAvx2, Real> crossings{PreparedRay(ray)};
     walk_wide<WideAvx2>(tree_, crossings, count, [&] { return leaf.reach(); },
                         [&](WideChild which) {
                           count.cell(false);
@@ -109,6 +108,13 @@ class BvhWide {
   }
 
  private:
+  using PreparedRay = std::conditional_t<std::same_as<Real, float>, WideRay, Ray<double>>;
+
+  /// Whether the ray's origin and direction are finite, and its interval holds a number: no other hits anything.
+  static bool can_hit(const Ray<Real>& ray) {
+    const Vec3<Real> zero = (ray.origin - ray.origin) + (ray.direction - ray.direction);
+    return (zero == Vec3<Real>{}) & (ray.t_min < ray.t_max);
+  }
   static bool triangles_suit(const Geometry<Real>& geometry) {
     return geometry.mostly_triangles() && geometry.intersector() == Intersector::fast;
   }

@@ -25,20 +25,14 @@ struct WideSearch {
   }
 
  private:
-  /// The ray as `begun` makes it, without a call.
-  static Ray<float> started(Ray<float> ray) {
-    ray.t_min = ray.t_min > 0 ? ray.t_min : 0;
-    return ray;
-  }
-
   template <bool kOthers>
   [[gnu::flatten, gnu::noinline]] static Hit<float> closest(const WideScene& scene, const Ray<float>& given) {
-    const Ray<float> ray = started(given);
     Hit<float> hit;
-    if (scene.tree.empty() || !can_hit(ray)) return hit;
-    const Crossings<float> prepared(ray);
-    const WideCrossings<Isa, float> crossings(ray, prepared);
-    const WideTriangleTest<Isa> test(ray, prepared);
+    const WideRay prepared(given);
+    const Ray<float>& ray = prepared.begun;
+    if (scene.tree.empty() || !prepared.can_hit) return hit;
+    const WideCrossings<Isa, float> crossings(prepared);
+    const WideTriangleTest<Isa> test(prepared);
     float reach = ray.t_max;
     const auto keep = [&](float t, std::uint32_t object) {
       if (t > reach || (t == hit.t && object > hit.object)) return;
@@ -50,6 +44,16 @@ struct WideSearch {
           const std::uint32_t count = leaf.count();
           const float* const rows = scene.triangles.leaf(leaf);
           for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
+            unsigned no_triangles = 0;
+            if constexpr (kOthers) no_triangles = others(rows, count, first);
+            if (kOthers && no_triangles == in_use(count, first)) [[unlikely]] { 
+              for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
+                const std::uint32_t object = leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
+                const float t = other_hit_distance(scene, object, ray, reach);
+                if (t <= reach) keep(t, scene.order[object]);
+              }
+              continue;
+            }
             const auto found = test(rows, count, first, reach);
             for (unsigned bits = found.bits; bits != 0; bits &= bits - 1) {
               const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
@@ -58,7 +62,7 @@ struct WideSearch {
               keep(t[lane], std::bit_cast<std::uint32_t>(rows[9 * count + first + lane]));
             }
             if constexpr (kOthers)
-              for (unsigned bits = others(rows, count, first); bits != 0; bits &= bits - 1) {
+              for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
                 const std::uint32_t object = leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
                 const float t = other_hit_distance(scene, object, ray, reach);
                 if (t <= reach) keep(t, scene.order[object]);
@@ -71,21 +75,24 @@ struct WideSearch {
 
   template <bool kOthers>
   [[gnu::flatten, gnu::noinline]] static bool any(const WideScene& scene, const Ray<float>& given) {
-    const Ray<float> ray = started(given);
     bool blocked = false;
-    if (scene.tree.empty() || !can_hit(ray)) return blocked;
-    const Crossings<float> prepared(ray);
-    const WideCrossings<Isa, float> crossings(ray, prepared);
-    const WideTriangleTest<Isa> test(ray, prepared);
+    const WideRay prepared(given);
+    const Ray<float>& ray = prepared.begun;
+    if (scene.tree.empty() || !prepared.can_hit) return blocked;
+    const WideCrossings<Isa, float> crossings(prepared);
+    const WideTriangleTest<Isa> test(prepared);
     walk_wide_unordered<Isa>(
         scene.tree, crossings, NoCount{}, ray.t_max,
         [&](WideChild leaf) {
           const std::uint32_t count = leaf.count();
           const float* const rows = scene.triangles.leaf(leaf);
           for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
+            unsigned no_triangles = 0;
+            if constexpr (kOthers) no_triangles = others(rows, count, first);
+            if (!(kOthers && no_triangles == in_use(count, first)))
             if (test(rows, count, first, ray.t_max).bits != 0) return blocked = true;
             if constexpr (kOthers)
-              for (unsigned bits = others(rows, count, first); bits != 0; bits &= bits - 1) {
+              for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
                 const std::uint32_t object = leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
                 if (other_hit_distance(scene, object, ray, ray.t_max) <= ray.t_max) return blocked = true;
               }
@@ -95,6 +102,10 @@ struct WideSearch {
     return blocked;
   }
 
+  static unsigned in_use(std::uint32_t count, std::uint32_t first) {
+    const std::uint32_t left = count - first;
+    return left < Isa::kObjects ? (1u << left) - 1 : (1u << Isa::kObjects) - 1;
+  }
   /// One bit for each object from number `first` on among the `count` of a leaf that is no triangle.
   static unsigned others(const float* leaf, std::uint32_t count, std::uint32_t first) {
     const std::uint32_t left = count - first;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "accel/parts/wide_triangles.h"
+#include "accel/parts/wide_walk.h"
 
 // Read where code for a kind of processor begins: all that is not included is a template over its instructions.
 
@@ -13,7 +14,7 @@ class WideTriangleTest {
   using Floats = typename Isa::Floats;
   using Doubles = typename Isa::Doubles;
 
-  WideTriangleTest(const Ray<float>& ray, const Crossings<float>& crossings) : ray_(ray), crossings_(crossings) {}
+  explicit WideTriangleTest(const WideRay& ray) : ray_(ray) {}
 
   struct Distances {
     /// One bit for each object that is hit.
@@ -30,11 +31,11 @@ class WideTriangleTest {
         corner[which][axis] = Isa::load(leaf + (3 * which + axis) * count + first);
     Doubles ab[3], ac[3], to_a[3], direction[3];
     for (int axis = 0; axis < 3; ++axis) {
-      direction[axis] = Isa::spread(double{ray_.direction[axis]});
+      direction[axis] = Isa::spread(double{ray_.begun.direction[axis]});
       const Doubles a = Isa::widened(corner[0][axis]);
       ab[axis] = Isa::widened(corner[1][axis]) - a;
       ac[axis] = Isa::widened(corner[2][axis]) - a;
-      to_a[axis] = a - Isa::spread(double{ray_.origin[axis]});
+      to_a[axis] = a - Isa::spread(double{ray_.begun.origin[axis]});
     }
     Doubles normal[3], q[3];
     cross(ab, ac, normal), cross(to_a, direction, q);
@@ -69,19 +70,18 @@ class WideTriangleTest {
     const Floats margin = Isa::spread(padding(1.0f)) * magnitude;
     Floats enter[3], exit[3];
     for (int axis = 0; axis < 3; ++axis) {
-      const Floats origin = Isa::spread(ray_.origin[axis]), earliest = Isa::spread(crossings_.earliest[axis]);
+      const Floats origin = Isa::spread(ray_.begun.origin[axis]), earliest = Isa::spread(ray_.earliest[axis]);
       const Floats low = (lo[axis] - margin) - origin, high = (hi[axis] + margin) - origin;
       enter[axis] = Isa::chosen(low, high, earliest) * earliest;
-      exit[axis] = Isa::chosen(high, low, earliest) * Isa::spread(crossings_.latest[axis]);
+      exit[axis] = Isa::chosen(high, low, earliest) * Isa::spread(ray_.latest[axis]);
     }
     const Floats enters = Isa::larger(Isa::larger(enter[0], enter[1]), enter[2]);
     const Floats exits = Isa::smaller(Isa::smaller(exit[0], exit[1]), exit[2]);
     found.t = Isa::smaller(Isa::larger(t, enters), exits);
-    found.bits &= Isa::not_above(enters, exits) & Isa::below(Isa::spread(ray_.t_min), found.t) & Isa::not_above(found.t, Isa::spread(reach));
+    found.bits &= Isa::not_above(enters, exits) & Isa::below(Isa::spread(ray_.begun.t_min), found.t) & Isa::not_above(found.t, Isa::spread(reach));
   }
 
-  const Ray<float>& ray_;
-  const Crossings<float>& crossings_;
+  const WideRay& ray_;
 };
 
 }  // namespace rayshoot

@@ -38,6 +38,34 @@ struct MetChildren {
   static int last_key(float distance) { return std::bit_cast<int>(distance) | kChildBits; }
 };
 
+/// A ray that has `begun`, with its `Crossings` in lanes, of which the fourth is of no account.
+struct WideRay {
+  Ray<float> begun;
+  __m128 inverse, earliest, latest;
+  /// Whether the ray can hit anything: its origin and direction are finite, and its interval holds a number.
+  bool can_hit;
+
+  explicit WideRay(const Ray<float>& given) {
+    static_assert(sizeof(Ray<float>) == sizeof(__m256));
+    // The ray is read and written as a whole: parts of it would have to wait for one another.
+    const __m256 all = _mm256_loadu_ps(&given.origin.x);
+    const __m256 from_zero = _mm256_blend_ps(all, _mm256_max_ps(all, _mm256_setzero_ps()), 0b1000);
+    _mm256_storeu_ps(&begun.origin.x, from_zero);
+
+    const __m128 limit = _mm_set1_ps(std::numeric_limits<float>::max() / 2);
+    // In the last lane stands t_max, whose inverse may be a denormal number, over which processors stumble.
+    const __m128 direction = _mm_blend_ps(_mm256_extractf128_ps(all, 1), _mm_set1_ps(1), 0b1000);
+    const __m128 unlimited = _mm_set1_ps(1) / direction;
+    inverse = _mm_min_ps(_mm_max_ps(unlimited, -limit), limit);
+    earliest = inverse * (1 - kCrossingError<float>);
+    latest = inverse * (1 + kCrossingError<float>);
+
+    const __m256 zero = all - all;
+    const auto finite = static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(zero, zero, _CMP_ORD_Q)));
+    can_hit = (finite & 0x77) == 0x77 && begun.t_min < begun.t_max;
+  }
+};
+
 /// A ray prepared for testing the boxes of wide nodes: `Crossings::inside` for all at once, to the last bit.
 template <class Isa, class Real>
 class WideCrossings;
@@ -45,14 +73,15 @@ class WideCrossings;
 template <class Isa>
 class WideCrossings<Isa, float> {
  public:
-  WideCrossings(const Ray<float>& ray, const Crossings<float>& crossings) {
+  explicit WideCrossings(const WideRay& ray) {
+    const auto signs = static_cast<unsigned>(_mm_movemask_ps(ray.inverse));
     for (int axis = 0; axis < 3; ++axis) {
-      origin_[axis] = _mm256_set1_ps(crossings.origin[axis]);
-      earliest_[axis] = _mm256_set1_ps(crossings.earliest[axis]);
-      latest_[axis] = _mm256_set1_ps(crossings.latest[axis]);
-      near_[axis] = crossings.inverse[axis] < 0;
+      origin_[axis] = _mm256_set1_ps(ray.begun.origin[axis]);
+      earliest_[axis] = _mm256_set1_ps(ray.earliest[axis]);
+      latest_[axis] = _mm256_set1_ps(ray.latest[axis]);
+      near_[axis] = signs >> axis & 1;
     }
-    start_ = _mm256_set1_ps(ray.t_min);
+    start_ = _mm256_set1_ps(ray.begun.t_min);
   }
 
   MetChildren<Isa> met(const WideNode<float>& node, float reach) const {
@@ -77,7 +106,7 @@ class WideCrossings<Isa, float> {
 template <class Isa>
 class WideCrossings<Isa, double> {
  public:
-  WideCrossings(const Ray<double>& ray, const Crossings<double>& crossings) : crossings_(crossings), start_(ray.t_min) {}
+  explicit WideCrossings(const Ray<double>& ray) : crossings_(ray), start_(ray.t_min) {}
 
   MetChildren<Isa> met(const WideNode<double>& node, double reach) const {
     const Half low = half(node, 0, reach), high = half(node, 1, reach);
@@ -104,7 +133,7 @@ class WideCrossings<Isa, double> {
     return {bits, _mm256_cvtpd_ps(enter)};
   }
 
-  const Crossings<double>& crossings_;
+  Crossings<double> crossings_;
   double start_;
 };
 
@@ -273,13 +302,6 @@ void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Re
     top->bits &= top->bits - 1;
     top += top->bits != 0;
   }
-}
-
-/// Whether a ray can hit anything: its origin and direction are finite, and its interval holds a number.
-template <class Real>
-bool can_hit(const Ray<Real>& ray) {
-  const Vec3<Real> zero = (ray.origin - ray.origin) + (ray.direction - ray.direction);
-  return (zero == Vec3<Real>{}) & (ray.t_min < ray.t_max);
 }
 
 }  // namespace rayshoot

@@ -68,8 +68,10 @@ Real hit_distance(const Polygon<Real>& polygon, std::span<const Vec3<Real>> vert
   const double approach = dot(polygon.normal, direction);
   if (approach == 0) return kMiss<Real>;
   const double t = dot(polygon.normal, Vec3d(vertices.front()) - origin) / approach;
-  if (!(t > 0) || !covers(vertices, polygon.dropped_axis, origin + direction * t)) return kMiss<Real>;
-  return confine(t, polygon.box, ray);
+  // What lies outside of the ray's interval is found out at less cost than what lies outside of the polygon.
+  const Real confined = t > 0 ? confine(t, polygon.box, ray) : kMiss<Real>;
+  if (confined == kMiss<Real> || !covers(vertices, polygon.dropped_axis, origin + direction * t)) return kMiss<Real>;
+  return confined;
 }
 
 }  // namespace rayshoot
