@@ -69,13 +69,16 @@ class BvhWide {
   void visit(const Ray<Real>& ray, Scratch&, Counter count, L& leaf) const {
     if (tree_.empty() || !can_hit(ray)) return;
     const WideCrossings<WideAvx2, Real> crossings{PreparedRay(ray)};
-    walk_wide<WideAvx2>(tree_, crossings, count, [&] { return leaf.reach(); },
-                        [&](WideChild which) {
-                          count.cell(false);
-                          for (std::uint32_t i = 0; i < which.count(); ++i)
-                            if (leaf(which.first() + i)) return true;
-                          return false;
-                        });
+    const auto visit_leaf = [&](WideChild which) {
+      count.cell(false);
+      for (std::uint32_t i = 0; i < which.count(); ++i)
+        if (leaf(which.first() + i)) return true;
+      return false;
+    };
+    if constexpr (kSeeksAnyHit<L>)
+      walk_wide_unordered<WideAvx2>(tree_, crossings, count, static_cast<Real>(leaf.reach()), visit_leaf);
+    else
+      walk_wide<WideAvx2>(tree_, crossings, count, [&] { return leaf.reach(); }, visit_leaf);
   }
 
   bool kernels_serve(const Geometry<Real>& arranged) const {

@@ -44,6 +44,13 @@ struct Naming {
   std::uint32_t operator()(std::uint32_t position) const { return order ? order[position] : position; }
 };
 
+/// Whether a leaf ends the visit at the first hit it is given: near objects first are then of no use to it.
+template <class L>
+inline constexpr bool kSeeksAnyHit = false;
+template <class L>
+requires L::kAnyHit
+inline constexpr bool kSeeksAnyHit<L> = true;
+
 /// Leaf of the closest-hit query: keeps the nearest hit, of equal distances the lowest object.
 template <class Real, class Test>
 class ClosestLeaf {
@@ -75,6 +82,8 @@ class ClosestLeaf {
 template <class Real, class Test>
 class AnyLeaf {
  public:
+  static constexpr bool kAnyHit = true;
+
   AnyLeaf(const Test& test, Naming, const Ray<Real>& ray) : test_(test), ray_(ray) {}
 
   bool operator()(std::uint32_t position) { return blocked_ = test_(position, ray_) <= ray_.t_max; }
@@ -104,6 +113,8 @@ class StrictLeaf {
 template <class Inner>
 class RecordingLeaf {
  public:
+  static constexpr bool kAnyHit = kSeeksAnyHit<Inner>;
+
   RecordingLeaf(Inner& inner, std::vector<std::uint32_t>& candidates)
       : inner_(inner), candidates_(candidates) {}
 
