@@ -9,6 +9,8 @@
 // Cost       TODO
 // Weak       TODO
 
+#include <numeric>
+
 #include "accel/core/define_technique.h"
 #include "accel/parts/wide_build.h"
 #include "accel/parts/wide_avx2.h"
@@ -67,18 +69,38 @@ class BvhWide {
 
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch&, Counter count, L& leaf) const {
-    if (tree_.empty() || !can_hit(ray)) return;
-    const WideCrossings<WideAvx2, Real> crossings{PreparedRay(ray)};
     const auto visit_leaf = [&](WideChild which) {
       count.cell(false);
       for (std::uint32_t i = 0; i < which.count(); ++i)
         if (leaf(which.first() + i)) return true;
       return false;
     };
+    if (tree_.empty() || !can_hit(ray)) return;
+    const WideCrossings<WideAvx2, Real> crossings{PreparedRay(ray)};
     if constexpr (kSeeksAnyHit<L>)
-      walk_wide_unordered<WideAvx2>(tree_, crossings, count, static_cast<Real>(leaf.reach()), visit_leaf);
+      walk_wide_unordered<WideAvx2>(tree_, crossings, count, static_cast<Real>(leaf.reach()), WideCoherent{}, visit_leaf);
     else
-      walk_wide<WideAvx2>(tree_, crossings, count, [&] { return leaf.reach(); }, visit_leaf);
+      walk_wide<WideAvx2>(tree_, crossings, count, [&] { return leaf.reach(); }, WideCoherent{}, visit_leaf);
+  }
+
+  /// Its leaves are the cells of a composition.
+  const BvhWide& cells(Scratch&) const { return *this; }
+  template <class Counter, class Reach, class Visit>
+  void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
+    if (tree_.empty() || !can_hit(ray)) return;
+    const WideCrossings<WideAvx2, Real> crossings{PreparedRay(ray)};
+    walk_wide<WideAvx2>(tree_, crossings, count, reach, WideCoherent{}, [&](WideChild leaf) {
+      return visit(std::span(order_).subspan(leaf.first(), leaf.count()));
+    });
+  }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    std::vector<std::uint32_t> positions;
+    tree_.for_each_leaf([&](const Box<Real>& box, WideChild leaf) {
+      positions.resize(leaf.count());
+      std::iota(positions.begin(), positions.end(), leaf.first());
+      visit(box, &order_[leaf.first()], positions);
+    });
   }
 
   bool kernels_serve(const Geometry<Real>& arranged) const {
@@ -97,17 +119,21 @@ class BvhWide {
                          .references = order_.size(),
                          .max_depth = tree_.max_depth,
                          .bytes = tree_.bytes() + triangles_.bytes() + order_.size() * sizeof(order_[0])};
-    for (const WideNode<Real>& node : tree_.nodes)
-      for (std::uint32_t which = 0; which < node.children; ++which) stats.leaves += node.child[which].is_leaf();
+    tree_.for_each_leaf([&](const Box<Real>&, WideChild) { ++stats.leaves; });
     stats.nodes += stats.leaves;
+    if (!tree_.empty()) {
+      Expected expected;
+      expect(tree_.nodes[0], 1, expected);
+      stats.figures = {{"expected_steps", expected.steps}, {"expected_leaves", expected.leaves}};
+    }
     return stats;
   }
 
   /// Equation (3): a node's children are tested as often as the node is hit, and so are a leaf's objects.
   Prediction<Real> predicted() const {
-    Prediction<Real> sum{0, 0, tree_.bounds};
-    if (!tree_.empty()) predict(tree_.nodes[0], 1, sum);
-    return sum;
+    Expected expected;
+    if (!tree_.empty()) expect(tree_.nodes[0], 1, expected);
+    return {expected.object_tests, expected.volume_tests, tree_.bounds};
   }
 
  private:
@@ -122,14 +148,20 @@ class BvhWide {
     return geometry.mostly_triangles() && geometry.intersector() == Intersector::fast;
   }
 
-  void predict(const WideNode<Real>& node, double probability, Prediction<Real>& sum) const {
+  /// What is expected of a ray that hits the root's box, occlusion neglected.
+  struct Expected {
+    double steps = 0, leaves = 0, object_tests = 0, volume_tests = 0;
+  };
+  void expect(const WideNode<Real>& node, double probability, Expected& sum) const {
+    sum.steps += probability;
     sum.volume_tests += probability * node.children;
     for (std::uint32_t which = 0; which < node.children; ++which) {
+      const WideChild child = node.child[which];
       const double of_child = node.box(which).surface_area() / tree_.bounds.surface_area();
-      if (node.child[which].is_leaf())
-        sum.object_tests += of_child * node.child[which].count();
+      if (child.is_leaf())
+        sum.leaves += of_child, sum.object_tests += of_child * child.count();
       else
-        predict(tree_.nodes[node.child[which].node()], of_child, sum);
+        expect(tree_.nodes[child.node()], of_child, sum);
     }
   }
 

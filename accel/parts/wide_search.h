@@ -12,21 +12,44 @@ namespace rayshoot {
 template <class Isa>
 struct WideSearch {
   static void closest_of_all(const WideScene& scene, std::span<const Ray<float>> rays, std::span<Hit<float>> hits) {
-    if (scene.triangles.has_others())
-      for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest<true>(scene, rays[i]);
-    else
-      for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest<false>(scene, rays[i]);
+    suited(scene, rays, [&](auto others, const auto& manner) {
+      for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest<others>(scene, manner, rays[i]);
+    });
   }
   static void any_of_all(const WideScene& scene, std::span<const Ray<float>> rays, std::span<std::uint8_t> blocked) {
-    if (scene.triangles.has_others())
-      for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = any<true>(scene, rays[i]);
-    else
-      for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = any<false>(scene, rays[i]);
+    suited(scene, rays, [&](auto others, const auto& manner) {
+      for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = any<others>(scene, manner, rays[i]);
+    });
   }
 
  private:
-  template <bool kOthers>
-  [[gnu::flatten, gnu::noinline]] static Hit<float> closest(const WideScene& scene, const Ray<float>& given) {
+  /// Call `search` with whether the scene has others than triangles, and in the manner that suits the rays.
+  template <class Search>
+  static void suited(const WideScene& scene, std::span<const Ray<float>> rays, const Search& search) {
+    const auto with_manner = [&](auto others) {
+      if (are_coherent(rays)) return search(others, WideCoherent{});
+      search(others, WideIncoherent<float>{scene.tree.nodes.data(), scene.triangles.begin(), WideTriangles::kBytes});
+    };
+    if (scene.triangles.has_others())
+      with_manner(std::true_type{});
+    else
+      with_manner(std::false_type{});
+  }
+
+  /// Whether successive rays take much the same way: looked at in 64 places, the directions of most neighbours differ
+  /// by less than a tenth of their length.
+  static bool are_coherent(std::span<const Ray<float>> rays) {
+    const std::size_t stride = std::max<std::size_t>(rays.size() / 64, 1);
+    std::size_t pairs = 0, alike = 0;
+    for (std::size_t i = 1; i < rays.size(); i += stride, ++pairs) {
+      const Vec3<float>&a = rays[i - 1].direction, &b = rays[i].direction;
+      alike += 100 * dot(a - b, a - b) < dot(a, a);
+    }
+    return 4 * alike > 3 * pairs;
+  }
+
+  template <bool kOthers, class Manner>
+  [[gnu::flatten, gnu::noinline]] static Hit<float> closest(const WideScene& scene, const Manner& manner, const Ray<float>& given) {
     Hit<float> hit;
     const WideRay prepared(given);
     const Ray<float>& ray = prepared.begun;
@@ -39,7 +62,7 @@ struct WideSearch {
       hit = {t, object}, reach = t;
     };
     walk_wide<Isa>(
-        scene.tree, crossings, NoCount{}, [&] { return reach; },
+        scene.tree, crossings, NoCount{}, [&] { return reach; }, manner,
         [&](WideChild leaf) {
           const std::uint32_t count = leaf.count();
           const float* const rows = scene.triangles.leaf(leaf);
@@ -73,8 +96,8 @@ struct WideSearch {
     return hit;
   }
 
-  template <bool kOthers>
-  [[gnu::flatten, gnu::noinline]] static bool any(const WideScene& scene, const Ray<float>& given) {
+  template <bool kOthers, class Manner>
+  [[gnu::flatten, gnu::noinline]] static bool any(const WideScene& scene, const Manner& manner, const Ray<float>& given) {
     bool blocked = false;
     const WideRay prepared(given);
     const Ray<float>& ray = prepared.begun;
@@ -82,7 +105,7 @@ struct WideSearch {
     const WideCrossings<Isa, float> crossings(prepared);
     const WideTriangleTest<Isa> test(prepared);
     walk_wide_unordered<Isa>(
-        scene.tree, crossings, NoCount{}, ray.t_max,
+        scene.tree, crossings, NoCount{}, ray.t_max, manner,
         [&](WideChild leaf) {
           const std::uint32_t count = leaf.count();
           const float* const rows = scene.triangles.leaf(leaf);

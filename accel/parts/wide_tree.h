@@ -74,6 +74,14 @@ struct WideTree {
 
   bool empty() const { return nodes.empty(); }
   std::size_t bytes() const { return nodes.size() * sizeof(WideNode<Real>); }
+
+  /// Call visit(box, leaf) for each leaf.
+  template <class Visit>
+  void for_each_leaf(const Visit& visit) const {
+    for (const WideNode<Real>& node : nodes)
+      for (std::uint32_t which = 0; which < node.children; ++which)
+        if (node.child[which].is_leaf()) visit(node.box(which), node.child[which]);
+  }
 };
 
 }  // namespace rayshoot

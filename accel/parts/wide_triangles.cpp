@@ -22,9 +22,7 @@ WideTriangles::WideTriangles(const Geometry<float>& geometry, std::span<const st
     }
     return others;
   };
-  for (const WideNode<float>& node : tree.nodes)
-    for (std::uint32_t which = 0; which < node.children; ++which)
-      if (node.child[which].is_leaf()) has_others_ |= fill(node.child[which].first(), node.child[which].count());
+  tree.for_each_leaf([&](const Box<float>&, WideChild leaf) { has_others_ |= fill(leaf.first(), leaf.count()); });
 }
 
 }  // namespace rayshoot

@@ -10,11 +10,14 @@ namespace rayshoot {
 class WideTriangles {
  public:
   static constexpr std::uint32_t kRows = 10;
+  /// For each object.
+  static constexpr std::size_t kBytes = kRows * sizeof(float);
 
   WideTriangles() = default;
   WideTriangles(const Geometry<float>& geometry, std::span<const std::uint32_t> order, const WideTree<float>& tree);
 
   const float* leaf(WideChild leaf) const { return rows_.data() + std::size_t{kRows} * leaf.first(); }
+  const char* begin() const { return reinterpret_cast<const char*>(rows_.data()); }
   /// Whether some objects are no triangles.
   bool has_others() const { return has_others_; }
   std::size_t bytes() const { return rows_.size() * sizeof(float); }

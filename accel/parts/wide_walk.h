@@ -137,38 +137,49 @@ class WideCrossings<Isa, double> {
   double start_;
 };
 
-#ifndef G1
-#define G1 guessed
-#endif
-#ifndef G2
-#define G2 guessed
-#endif
-#ifndef G3
-#define G3 guessed
-#endif
-#ifndef G4
-#define G4 guessed
-#endif
-#define PLAIN(a, b) (a)[b]
-/// children[which], found by a jump: the processor guesses it and goes on with the child while `which` is worked out.
+/// children[which], found by a jump: the processor guesses where it goes and is at the child before `which` is worked out.
 [[gnu::always_inline]] inline WideChild guessed(const WideChild* children, unsigned which) {
-  WideChild c;
+  WideChild child;
+  const auto arrive = [&](int number) {
+    child = children[number];
+    keep_branch();
+  };
   switch (which) {
-    case 0: c = children[0]; keep_branch(); break;
-    case 1: c = children[1]; keep_branch(); break;
-    case 2: c = children[2]; keep_branch(); break;
-    case 3: c = children[3]; keep_branch(); break;
-    case 4: c = children[4]; keep_branch(); break;
-    case 5: c = children[5]; keep_branch(); break;
-    case 6: c = children[6]; keep_branch(); break;
-    case 7: c = children[7]; keep_branch(); break;
+    case 0: arrive(0); break;
+    case 1: arrive(1); break;
+    case 2: arrive(2); break;
+    case 3: arrive(3); break;
+    case 4: arrive(4); break;
+    case 5: arrive(5); break;
+    case 6: arrive(6); break;
+    case 7: arrive(7); break;
     default: __builtin_unreachable();
   }
-  return c;
+  return child;
 }
 
-/// Every level of a tree leaves children of one node behind that wait for their turn.
-inline constexpr int kWideLevels = kMaxSahDepth + 2;
+/// How to walk when successive rays take much the same way: the next child is guessed.
+struct WideCoherent {
+  static WideChild next(const WideChild* children, unsigned which) { return guessed(children, which); }
+  static void fetch(WideChild) {}
+};
+/// How to walk when they do not: guesses would fail, and what waits is best fetched meanwhile.
+template <class Real>
+struct WideIncoherent {
+  const WideNode<Real>* nodes;
+  /// What leaves hold, `bytes` for each object.
+  const char* leaves;
+  std::size_t bytes;
+
+  /// Of a node all, and of most leaves.
+  static constexpr int kLines = sizeof(WideNode<float>) / 64;
+
+  static WideChild next(const WideChild* children, unsigned which) { return children[which]; }
+  void fetch(WideChild child) const {
+    const char* const at = child.is_leaf() ? leaves + bytes * child.first() : reinterpret_cast<const char*>(nodes + child.node());
+    for (int line = 0; line < kLines; ++line) __builtin_prefetch(at + 64 * line);
+  }
+};
 
 /// Children that wait for their turn. How many, the walk keeps to itself, where the compiler can see it.
 template <class Isa>
@@ -185,12 +196,12 @@ class WideStack {
   }
 
   /// Keep all children that were met but the nearest, which is returned.
-  template <class Real>
-  WideChild push_farther(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met) {
+  template <class Real, class Manner>
+  WideChild push_farther(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met, const Manner& manner) {
     const auto first = static_cast<unsigned>(std::countr_zero(met.bits));
     const unsigned others = met.bits & (met.bits - 1);
-    if (others == 0) return G1(node.child, first);
-    if ((others & (others - 1)) != 0) return push_sorted(waiting, node, met);
+    if (others == 0) return manner.next(node.child, first);
+    if ((others & (others - 1)) != 0) return push_sorted(waiting, node, met, manner);
     const auto second = static_cast<unsigned>(std::countr_zero(others));
     alignas(32) int keys[kWideWidth];
     _mm256_store_si256(reinterpret_cast<__m256i*>(keys), met.keys);
@@ -198,7 +209,8 @@ class WideStack {
     const unsigned near = swapped ? second : first, far = swapped ? first : second;
     keys_[waiting] = keys[far];
     children_[waiting++] = node.child[far];
-    return G2(node.child, near);
+    manner.fetch(node.child[far]);
+    return manner.next(node.child, near);
   }
 
  private:
@@ -207,8 +219,8 @@ class WideStack {
     return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(node.child));
   }
 
-  template <class Real>
-  WideChild push_sorted(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met) {
+  template <class Real, class Manner>
+  WideChild push_sorted(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met, const Manner& manner) {
     const __m256i places = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
     const __m256i bits = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(met.bits)), places);
     // What was not met sorts behind everything.
@@ -218,7 +230,8 @@ class WideStack {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(keys_ + waiting), sorted);
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(children_ + waiting), children);
     waiting += static_cast<unsigned>(std::popcount(met.bits)) - 1;
-    return G3(node.child, met.nearest());
+    manner.fetch(children_[waiting - 1]), manner.fetch(children_[waiting - 2]);
+    return manner.next(node.child, met.nearest());
   }
 
   /// Sort eight numbers by a network of 19 comparisons in six layers.
@@ -247,9 +260,9 @@ class WideStack {
 /// wait in order of distance until it is done.
 ///   visit(leaf)  is called with each leaf, a WideChild; true ends the walk
 ///   reach()      is the distance at which the walk may end; leaves that begin there are still visited
-template <class Isa, class Real, class Counter, class Reach, class Visit>
+template <class Isa, class Real, class Counter, class Reach, class Manner, class Visit>
 void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count, const Reach& reach,
-               const Visit& visit) {
+               const Manner& manner, const Visit& visit) {
   WideStack<Isa> stack;
   unsigned waiting = 0;
   WideChild current = WideChild::interior(0);
@@ -262,7 +275,7 @@ void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& cross
       count.step(), count.volume_tests(node.children);
       const MetChildren<Isa> met = crossings.met(node, reach());
       if (met.bits != 0) {
-        current = stack.push_farther(waiting, node, met);
+        current = stack.push_farther(waiting, node, met, manner);
         continue;
       }
     }
@@ -271,26 +284,29 @@ void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& cross
 }
 
 /// The leaves of a wide hierarchy that a ray meets up to `reach`, in no order of distance: for those who look for any hit.
-template <class Isa, class Real, class Counter, class Visit>
+template <class Isa, class Real, class Counter, class Manner, class Visit>
 void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count, Real reach,
-                         const Visit& visit) {
+                         const Manner& manner, const Visit& visit) {
   struct Waiting {
     const WideNode<Real>* node;
-    std::uint64_t bits;
+    unsigned bits;
   };
-  Waiting levels[kWideLevels];
+  // Every level leaves children of one node behind.
+  Waiting levels[kMaxSahDepth + 1];
   Waiting* top = levels;
-  const WideNode<Real>* const nodes = tree.nodes.data();
+  const auto first = [](unsigned bits) { return static_cast<unsigned>(std::countr_zero(bits)) % kWideWidth; };
   WideChild current = WideChild::interior(0);
+  const WideNode<Real>* const nodes = tree.nodes.data();
   while (true) {
     if (current.is_leaf()) {
       if (visit(current)) return;
     } else {
       const WideNode<Real>& node = nodes[current.node()];
       count.step(), count.volume_tests(node.children);
-      const std::uint64_t bits = crossings.met(node, reach).bits;
+      const unsigned bits = crossings.met(node, reach).bits;
       if (bits != 0) {
-        current = G1(node.child, std::countr_zero(bits));
+        current = manner.next(node.child, first(bits));
+        // Written in any case, kept where something waits: cheaper than to branch on it.
         *top = {&node, bits & (bits - 1)};
         top += top->bits != 0;
         continue;
@@ -298,7 +314,7 @@ void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Re
     }
     if (top == levels) return;
     --top;
-    current = G4(top->node->child, std::countr_zero(top->bits));
+    current = manner.next(top->node->child, first(top->bits));
     top->bits &= top->bits - 1;
     top += top->bits != 0;
   }

@@ -26,6 +26,7 @@ inline constexpr const char* kExpressions[] = {
     "kd_tree(max_depth=4)|octree_revelles",
     "kd_tree(max_depth=3,clipped=off)|bvh_weghorst",
     "bvh_sah(max_objects=32)|uniform_grid",
+    "bvh_wide|bvh_wide(max_objects=2)",
     "uniform_grid(resolution=2x2x2)|octree_samet(max_depth=1)|bvh_sah",
     "uniform_grid(resolution=2x2x2)|(octree_samet(max_depth=1)|bvh_sah)",
     "octree_revelles(max_depth=1)|kd_tree(max_depth=2)|hug|uniform_grid",

@@ -35,7 +35,7 @@ TEST_P(Equation3, PredictsTestsWithinTheIntervalOfAMillionChords) {
   const Scene scene = load_scene(GetParam()).scene;
   const Geometry<double> geometry(scene);
   const RaySet chords = make_rays("chords(rays=3000000)", scene, NoTracer(), 1);
-  for (const char* technique : {"bvh_sah", "bvh_goldsmith_salmon", "bvh_kay_kajiya"})
+  for (const char* technique : {"bvh_sah", "bvh_wide", "bvh_goldsmith_salmon", "bvh_kay_kajiya"})
     for (const Equation3Check& check : checks(technique, geometry, chords)) {
       EXPECT_GE(check.rays, 1'000'000u);
       EXPECT_TRUE(check.holds()) << technique << ' ' << check.quantity << ": predicted " << check.predicted

@@ -1,0 +1,129 @@
+// What makes bvh_wide that technique.
+#include <gtest/gtest.h>
+
+#include "accel/parts/wide_build.h"
+#include "accel/parts/wide_kernels.h"
+#include "accel/tests/built_engine.h"
+#include "accel/tests/conformance.h"
+#include "scenes/io/load_scene.h"
+
+namespace rayshoot {
+namespace {
+
+/// A bit of everything, but triangles mostly, so that the kernels serve it.
+Scene triangles_and_others(int triangles) {
+  SceneBuilder builder;
+  nasty::Random random(3);
+  for (int i = 0; i < triangles; ++i) {
+    const Vec3d p = nasty::uniform_point(random, -4, 4);
+    builder.triangle(p, p + nasty::uniform_point(random, -1, 1), p + nasty::uniform_point(random, -1, 1));
+  }
+  nasty::soup(builder, random, triangles / 12);
+  // Ties of several objects of several kinds, the lowest of which is no triangle.
+  for (int i = 0; i < 3; ++i) nasty::square(builder, {-2, -2, 0}, {4, 0, 0}, {0, 4, 0});
+  for (int i = 0; i < 9; ++i) builder.triangle({-3, -3, 0}, {6, -3, 0}, {-3, 6, 0});
+  return std::move(builder).finish();
+}
+
+void check_kernels(const Scene& scene, double scale, int rays) {
+  const Geometry<float> geometry(nasty::scaled(scene, scale));
+  ASSERT_TRUE(geometry.mostly_triangles());
+  const auto all = nasty::rays(geometry, scale, rays);
+  const auto truths = conformance::truths<float>(geometry, all);
+  for (const char* instructions : {"best", "avx2"})
+    for (const char* max_objects : {"8", "1", "5"}) {
+      SCOPED_TRACE(fmt::format("{}, {} objects, scaled by {}", instructions, max_objects, scale));
+      const Given given{{"instructions", instructions}, {"max_objects", max_objects}};
+      conformance::check_engine<float>(*build<float>("bvh_wide", geometry, given), all, truths);
+      if (::testing::Test::HasFailure()) return;
+    }
+}
+
+TEST(BvhWide, KernelsAnswerAsExhaustiveSearch) {
+  for (const double scale : nasty::kScales)
+    for (const int triangles : {1, 7, 40, 400}) check_kernels(triangles_and_others(triangles), scale, 150);
+  for (const char* spec : {"tetra:3", "tree:3/patches", "mount:3", "lattice:1/patches"}) {
+    SCOPED_TRACE(spec);
+    check_kernels(load_scene(spec).scene, 1, 60);
+  }
+}
+
+TEST(BvhWide, TakesFewerStepsThanABinaryTree) {
+  for (const char* spec : {"balls:2/patches", "tree:4/patches", "mount:5"}) {
+    const Geometry<float> geometry(load_scene(spec).scene);
+    const auto rays = nasty::rays(geometry, 1, 300);
+    const Counted<float> wide = counted(*build<float>("bvh_wide", geometry), Query::closest, rays);
+    const Counted<float> binary = counted(*build<float>("bvh_sah", geometry), Query::closest, rays);
+    EXPECT_EQ(wide.hits, binary.hits);
+    EXPECT_LT(2 * wide.work.steps, binary.work.steps) << spec;
+  }
+}
+
+TEST(BvhWide, SeeksAnyHitWithoutOrderAndStopsAtTheFirst) {
+  const Geometry<float> geometry(load_scene("mount:4").scene);
+  const auto rays = nasty::rays(geometry, 1, 300);
+  const auto engine = build<float>("bvh_wide", geometry);
+  const Work any = counted(*engine, Query::any, rays).work, closest = counted(*engine, Query::closest, rays).work,
+             strict = counted(*engine, Query::strict, rays).work;
+  EXPECT_LT(any.object_tests, closest.object_tests);
+  EXPECT_LT(closest.object_tests, strict.object_tests);
+  EXPECT_LT(any.steps, strict.steps);
+}
+
+/// What the widened tree is expected to cost, in tests of a node's children.
+double expected_cost(const Engine<double>& engine, double leaf_cost) {
+  const auto figures = engine.structure().figures;
+  return figures.at("expected_steps") + leaf_cost * figures.at("expected_leaves");
+}
+
+TEST(BvhWide, MoreChoiceNeverCostsMore) {
+  const Scene scene = soup_scene(1000);
+  const Geometry<double> geometry(scene);
+  double least = std::numeric_limits<double>::infinity();
+  for (const char* max_objects : {"1", "2", "3", "4", "5", "6", "7", "8"}) {
+    const double cost = expected_cost(*build("bvh_wide", geometry, {{"max_objects", max_objects}, {"leaf_cost", "2"}}), 2);
+    EXPECT_LE(cost, least * 1.00001);
+    least = cost;
+  }
+  // Of two trees each is the cheaper one by the costs that it was made for.
+  const auto cheap = build("bvh_wide", geometry, {{"leaf_cost", "0.5"}}), dear = build("bvh_wide", geometry, {{"leaf_cost", "5"}});
+  EXPECT_LT(expected_cost(*cheap, 0.5), expected_cost(*dear, 0.5));
+  EXPECT_LT(expected_cost(*dear, 5), expected_cost(*cheap, 5));
+}
+
+TEST(BvhWide, NoTreeMadeOfASmallBinaryOneIsCheaper) {
+  // Eight distant clusters of eight: a root over eight full leaves is the best there is.
+  SceneBuilder builder;
+  for (int i = 0; i < 64; ++i)
+    builder.sphere({(i & 1) * 1000.0 + i / 8 * 0.01, (i >> 1 & 1) * 1000.0, (i >> 2 & 1) * 1000.0}, 0.01);
+  const Scene scene = std::move(builder).finish();
+  const Geometry<double> geometry(scene);
+  const StructureStats stats = build("bvh_wide", geometry)->structure();
+  EXPECT_EQ(stats.nodes, 9u);
+  EXPECT_EQ(stats.leaves, 8u);
+  EXPECT_EQ(stats.max_depth, 1u);
+}
+
+TEST(BvhWide, DepthStaysBoundedWhereCentresCoincideOrShrinkForEver) {
+  SceneBuilder builder;
+  for (int i = 0; i < 20'000; ++i) builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  for (int i = 0; i < 900; ++i) builder.sphere({std::ldexp(1, -i), 0, 0}, std::ldexp(1, -i - 2));
+  const Scene scene = std::move(builder).finish();
+  const Geometry<double> geometry(scene);
+  EXPECT_LE(build("bvh_wide", geometry)->structure().max_depth, 80u);
+}
+
+TEST(BvhWide, MakesKernelsOnlyForWhatTheyServe) {
+  // Triangles are stored a second time for the kernels alone.
+  const Scene curved = soup_scene(1000), triangles = load_scene("tetra:4").scene;
+  const auto bytes_an_object = [](const auto& geometry) {
+    const StructureStats stats = build("bvh_wide", geometry)->structure();
+    return static_cast<double>(stats.bytes) / static_cast<double>(stats.references);
+  };
+  const double of_triangles = bytes_an_object(Geometry<float>(triangles));
+  EXPECT_GT(of_triangles, 44);
+  EXPECT_LT(bytes_an_object(Geometry<float>(triangles, ConeSides::both, Intersector::watertight)), of_triangles - 39);
+}
+
+}  // namespace
+}  // namespace rayshoot
