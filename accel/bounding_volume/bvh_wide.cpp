@@ -49,17 +49,20 @@ class BvhWide {
     return {.instructions = arguments.text("instructions"),
             .sweep = arguments.text("split") == "sweep",
             .costs = {.leaf = arguments.real("leaf_cost"),
-                      .max_objects = static_cast<std::size_t>(arguments.integer("max_objects"))}};
+                      .max_objects = static_cast<std::uint32_t>(arguments.integer("max_objects"))}};
   }
 
   static BvhWide build(const BuildInput<Real>& in, const Config& config) {
     BvhWide bvh;
+    const bool at_once = std::same_as<Real, float> && triangles_suit(in.geometry);
+    WideCosts costs = config.costs;
+    if (!at_once) costs.objects_at_once = 1;
     std::vector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
-    bvh.tree_ = widened_tree(sah_tree<Real>(objects, {.sweep = config.sweep, .max_objects = 1}), config.costs);
+    bvh.tree_ = widened_tree(sah_tree<Real>(objects, {.sweep = config.sweep, .max_objects = 1}), costs);
     bvh.order_.reserve(objects.size());
     for (const BoxedObject<Real>& object : objects) bvh.order_.push_back(object.object);
     if constexpr (std::same_as<Real, float>)
-      if (triangles_suit(in.geometry)) bvh.triangles_ = WideTriangles(in.geometry, bvh.order_, bvh.tree_);
+      if (at_once) bvh.triangles_ = WideTriangles(in.geometry, bvh.order_, bvh.tree_);
     if (config.instructions == "best" && has_avx512()) bvh.kernels_ = &kWideKernelsAvx512;
     return bvh;
   }

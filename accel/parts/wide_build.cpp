@@ -65,7 +65,7 @@ class Widener {
     return whole > 0 ? static_cast<float>(box.surface_area() / whole) : 1;
   }
   float cost(const Subtree& subtree, int trees) const {
-    return subtree.reference.leaf() ? static_cast<float>(costs_.leaf) * area(subtree.box)
+    return subtree.reference.leaf() ? static_cast<float>(costs_.of_leaf(1)) * area(subtree.box)
                                     : forest(subtree).cost[trees - 1];
   }
 
@@ -89,7 +89,7 @@ class Widener {
     const float own_area = area(subtree.box);
     const auto [children, to_left] = shared(kWideWidth);
     here.cost[0] = own_area + children, here.left[0] = to_left;
-    const float as_leaf = static_cast<float>(costs_.leaf) * own_area;
+    const float as_leaf = static_cast<float>(costs_.of_leaf(here.count)) * own_area;
     if (here.count <= costs_.max_objects && as_leaf <= here.cost[0]) here.cost[0] = as_leaf, here.left[0] = 0;
     for (int trees = 2; trees < kWideWidth; ++trees) {
       const auto [sum, side] = shared(trees);
