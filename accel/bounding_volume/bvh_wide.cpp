@@ -1,19 +1,34 @@
 // Wide bounding volume hierarchy (the modern reference of Arvo & Kirk §4.3, for one ray and many lanes)
-// I. Wald, C. Benthin & S. Boulos, "Getting rid of packets", 2008; H. Ylitie, T. Karras & S. Laine, "Efficient incoherent
-// ray traversal on GPUs through compressed wide BVHs", 2017, for the build.
+// I. Wald, C. Benthin & S. Boulos, "Getting rid of packets", 2008; the build after H. Ylitie, T. Karras & S. Laine,
+// "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", 2017.
 //
-// Idea       A node has up to eight children, whose boxes are tested at once. A binary tree by the surface area heuristic
-//            is widened to the tree of least expected cost that can be made of it by leaving out nodes; small subtrees
-//            become leaves of up to eight objects, whose triangles are tested at once as well.
-// Parameters TODO
-// Cost       TODO
-// Weak       TODO
+// Idea       A node has up to eight children, whose boxes are tested at once. A binary tree by the surface area
+//            heuristic is widened to the tree of least expected cost that leaving out nodes can make of it, and its
+//            small subtrees become leaves of up to eight objects. Where nearly all objects are triangles and the
+//            intersector is fast, `closest` and `any` in float are kernels: the triangles of a leaf lie side by side
+//            and get the scalar test, operation by operation in double precision, at once.
+// Parameters instructions  best takes AVX-512 where the processor has it: eight triangles at once, in AVX2 four
+//            split         how bvh_sah splits small ranges of the binary tree
+//            max_objects   objects a leaf may hold at the most; 8, as many as are tested at once
+//            leaf_cost     cost of one test in a leaf, of eight objects where there are kernels, of one otherwise, in
+//                          tests of a node's children; 1, and up to 2.5 makes no difference of note
+// Order      The nearest child comes first, the others wait sorted by distance. Who looks for any hit takes children as
+//            they stand. A kernel looks whether successive rays of its batch run alike: then it guesses the next child
+//            by a jump, which is predicted while the boxes are still tested; otherwise it fetches what has to wait.
+// Counts     A step is a node, its volume tests are its children, a cell is a leaf. Objects are counted as if tested
+//            one after the other: of a leaf all for the nearest hit, those up to the first hit for any. Rays that are
+//            not finite, and empty ones, hit nothing and are not looked at.
+// Cost       equation (3), exactly, for uniformly distributed rays without occlusion.
+// Weak       spheres, cones and polygons are tested one by one; single precision alone has kernels, and so has the
+//            fast intersector alone. Long thin objects whose boxes are mostly void.
+
+#include <fmt/format.h>
 
 #include <numeric>
 
 #include "accel/core/define_technique.h"
-#include "accel/parts/wide_build.h"
 #include "accel/parts/wide_avx2.h"
+#include "accel/parts/wide_build.h"
 #include "accel/parts/wide_kernels.h"
 #include "accel/parts/wide_walk.h"
 
@@ -33,17 +48,19 @@ class BvhWide {
   struct Scratch {};
 
   static TechniqueInfo info() {
-    return {.id = "bvh_wide",
-            .title = "Wide bounding volume hierarchy",
-            .family = "bounding_volume",
-            .survey_section = "4",
-            .paper = "Wald, Benthin & Boulos 2008; Ylitie, Karras & Laine 2017",
-            .parameters = {choice_parameter("instructions", "best", {"best", "avx2"}, "instructions of the timed searches"),
-                           choice_parameter("split", "sweep", {"sweep", "binned"},
-                                            "how ranges of at most 256 objects are split"),
-                           integer_parameter("max_objects", 8, 1, 8, "objects a leaf may hold at the most"),
-                           real_parameter("leaf_cost", 1, 0, 100,
-                                          "cost of testing a leaf's objects, in tests of a node's children")}};
+    return {
+        .id = "bvh_wide",
+        .title = "Wide bounding volume hierarchy",
+        .family = "bounding_volume",
+        .survey_section = "4",
+        .paper = "Wald, Benthin & Boulos 2008; Ylitie, Karras & Laine 2017",
+        .parameters = {
+            choice_parameter("instructions", "best", {"best", "avx2"}, "instructions of the timed searches"),
+            choice_parameter("split", "sweep", {"sweep", "binned"},
+                             "how ranges of at most 256 objects are split"),
+            integer_parameter("max_objects", 8, 1, 8, "objects a leaf may hold at the most"),
+            real_parameter("leaf_cost", 1, 0, 100,
+                           "cost of testing a leaf's objects, in tests of a node's children")}};
   }
   static Config configure(const Arguments& arguments) {
     return {.instructions = arguments.text("instructions"),
@@ -53,6 +70,9 @@ class BvhWide {
   }
 
   static BvhWide build(const BuildInput<Real>& in, const Config& config) {
+    if (in.geometry.size() > WideChild::kMostObjects)
+      throw InputError(
+          fmt::format("bvh_wide: {} objects; {} are possible", in.geometry.size(), WideChild::kMostObjects));
     BvhWide bvh;
     const bool at_once = std::same_as<Real, float> && triangles_suit(in.geometry);
     WideCosts costs = config.costs;
@@ -81,9 +101,11 @@ class BvhWide {
     if (tree_.empty() || !can_hit(ray)) return;
     const WideCrossings<WideAvx2, Real> crossings{PreparedRay(ray)};
     if constexpr (kSeeksAnyHit<L>)
-      walk_wide_unordered<WideAvx2>(tree_, crossings, count, static_cast<Real>(leaf.reach()), WideCoherent{}, visit_leaf);
+      walk_wide_unordered<WideAvx2>(tree_, crossings, count, static_cast<Real>(leaf.reach()),
+                                    WideCoherent<WideAvx2>{}, visit_leaf);
     else
-      walk_wide<WideAvx2>(tree_, crossings, count, [&] { return leaf.reach(); }, WideCoherent{}, visit_leaf);
+      walk_wide<WideAvx2>(
+          tree_, crossings, count, [&] { return leaf.reach(); }, WideCoherent<WideAvx2>{}, visit_leaf);
   }
 
   /// Its leaves are the cells of a composition.
@@ -92,7 +114,7 @@ class BvhWide {
   void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     if (tree_.empty() || !can_hit(ray)) return;
     const WideCrossings<WideAvx2, Real> crossings{PreparedRay(ray)};
-    walk_wide<WideAvx2>(tree_, crossings, count, reach, WideCoherent{}, [&](WideChild leaf) {
+    walk_wide<WideAvx2>(tree_, crossings, count, reach, WideCoherent<WideAvx2>{}, [&](WideChild leaf) {
       return visit(std::span(order_).subspan(leaf.first(), leaf.count()));
     });
   }
@@ -109,12 +131,15 @@ class BvhWide {
   bool kernels_serve(const Geometry<Real>& arranged) const {
     return std::same_as<Real, float> && triangles_suit(arranged);
   }
-  void kernel_closest(const Geometry<Real>& arranged, std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits) const {
-    if constexpr (std::same_as<Real, float>) kernels_->closest({tree_, triangles_, arranged, order_}, rays, hits);
+  void kernel_closest(const Geometry<Real>& arranged, std::span<const Ray<Real>> rays,
+                      std::span<Hit<Real>> hits) const {
+    if constexpr (std::same_as<Real, float>)
+      kernels_->closest({tree_, triangles_, arranged, order_}, rays, hits);
   }
   void kernel_any(const Geometry<Real>& arranged, std::span<const Ray<Real>> rays,
                   std::span<std::uint8_t> blocked) const {
-    if constexpr (std::same_as<Real, float>) kernels_->any({tree_, triangles_, arranged, order_}, rays, blocked);
+    if constexpr (std::same_as<Real, float>)
+      kernels_->any({tree_, triangles_, arranged, order_}, rays, blocked);
   }
 
   StructureStats structure() const {
@@ -140,7 +165,7 @@ class BvhWide {
   }
 
  private:
-  using PreparedRay = std::conditional_t<std::same_as<Real, float>, WideRay, Ray<double>>;
+  using PreparedRay = std::conditional_t<std::same_as<Real, float>, WideRay<WideAvx2>, Ray<double>>;
 
   /// Whether the ray's origin and direction are finite, and its interval holds a number: no other hits anything.
   static bool can_hit(const Ray<Real>& ray) {

@@ -43,7 +43,8 @@ struct WideAvx2 {
   static unsigned no_numbers(Floats a) { return bits(_mm_cmp_ps(a, a, _CMP_UNORD_Q)); }
   static unsigned covered(Doubles u, Doubles v, Doubles approach) {
     const Doubles zero = _mm256_setzero_pd();
-    const Doubles within = _mm256_and_pd(_mm256_cmp_pd(u, zero, _CMP_GE_OQ), _mm256_cmp_pd(v, zero, _CMP_GE_OQ));
+    const Doubles within =
+        _mm256_and_pd(_mm256_cmp_pd(u, zero, _CMP_GE_OQ), _mm256_cmp_pd(v, zero, _CMP_GE_OQ));
     const Doubles both = _mm256_and_pd(_mm256_cmp_pd(_mm256_add_pd(u, v), approach, _CMP_LE_OQ),
                                        _mm256_cmp_pd(approach, zero, _CMP_NEQ_OQ));
     return static_cast<unsigned>(_mm256_movemask_pd(_mm256_and_pd(within, both)));

@@ -107,8 +107,8 @@ class Widener {
     share(subtree, forest(subtree).left[0], kWideWidth, children);
     for (const Subtree& each : children) {
       const bool is_leaf = each.reference.leaf() || forest(each).leaf(1);
-      const WideChild made = is_leaf ? WideChild::leaf(first(each), count(each))
-                                     : WideChild::interior(emit(each, depth + 1));
+      const WideChild made =
+          is_leaf ? WideChild::leaf(first(each), count(each)) : WideChild::interior(emit(each, depth + 1));
       tree_.nodes[number].add(each.box, made);
     }
     return number;

@@ -3,7 +3,8 @@
 
 namespace rayshoot {
 
-const WideKernels kWideKernelsAvx2{"avx2", WideSearch<WideAvx2>::closest_of_all, WideSearch<WideAvx2>::any_of_all};
+const WideKernels kWideKernelsAvx2{"avx2", WideSearch<WideAvx2>::closest_of_all,
+                                   WideSearch<WideAvx2>::any_of_all};
 
 float other_hit_distance(const WideScene& scene, std::uint32_t place, Ray<float> ray, float reach) {
   ray.t_max = reach;

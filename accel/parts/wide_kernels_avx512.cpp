@@ -2,7 +2,8 @@
 
 // All that follows may use AVX-512; what stands above may not, since other files share it.
 #ifdef __clang__
-#pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx512bw"))), apply_to = function)
+#pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx512bw"))), \
+                             apply_to = function)
 #else
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
 // GCC 12's own intrinsics begin with vectors that they leave open on purpose.

@@ -11,12 +11,14 @@ namespace rayshoot {
 /// The searches of WideKernels.
 template <class Isa>
 struct WideSearch {
-  static void closest_of_all(const WideScene& scene, std::span<const Ray<float>> rays, std::span<Hit<float>> hits) {
+  static void closest_of_all(const WideScene& scene, std::span<const Ray<float>> rays,
+                             std::span<Hit<float>> hits) {
     suited(scene, rays, [&](auto others, const auto& manner) {
       for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest<others>(scene, manner, rays[i]);
     });
   }
-  static void any_of_all(const WideScene& scene, std::span<const Ray<float>> rays, std::span<std::uint8_t> blocked) {
+  static void any_of_all(const WideScene& scene, std::span<const Ray<float>> rays,
+                         std::span<std::uint8_t> blocked) {
     suited(scene, rays, [&](auto others, const auto& manner) {
       for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = any<others>(scene, manner, rays[i]);
     });
@@ -27,8 +29,9 @@ struct WideSearch {
   template <class Search>
   static void suited(const WideScene& scene, std::span<const Ray<float>> rays, const Search& search) {
     const auto with_manner = [&](auto others) {
-      if (are_coherent(rays)) return search(others, WideCoherent{});
-      search(others, WideIncoherent<float>{scene.tree.nodes.data(), scene.triangles.begin(), WideTriangles::kBytes});
+      if (are_coherent(rays)) return search(others, WideCoherent<Isa>{});
+      search(others, WideIncoherent<Isa, float>{scene.tree.nodes.data(), scene.triangles.begin(),
+                                                WideTriangles::kBytes});
     };
     if (scene.triangles.has_others())
       with_manner(std::true_type{});
@@ -49,9 +52,10 @@ struct WideSearch {
   }
 
   template <bool kOthers, class Manner>
-  [[gnu::flatten, gnu::noinline]] static Hit<float> closest(const WideScene& scene, const Manner& manner, const Ray<float>& given) {
+  [[gnu::flatten, gnu::noinline]] static Hit<float> closest(const WideScene& scene, const Manner& manner,
+                                                            const Ray<float>& given) {
     Hit<float> hit;
-    const WideRay prepared(given);
+    const WideRay<Isa> prepared(given);
     const Ray<float>& ray = prepared.begun;
     if (scene.tree.empty() || !prepared.can_hit) return hit;
     const WideCrossings<Isa, float> crossings(prepared);
@@ -69,9 +73,10 @@ struct WideSearch {
           for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
             unsigned no_triangles = 0;
             if constexpr (kOthers) no_triangles = others(rows, count, first);
-            if (kOthers && no_triangles == in_use(count, first)) [[unlikely]] { 
+            if (kOthers && no_triangles == in_use(count, first)) [[unlikely]] {
               for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
-                const std::uint32_t object = leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
+                const std::uint32_t object =
+                    leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
                 const float t = other_hit_distance(scene, object, ray, reach);
                 if (t <= reach) keep(t, scene.order[object]);
               }
@@ -86,7 +91,8 @@ struct WideSearch {
             }
             if constexpr (kOthers)
               for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
-                const std::uint32_t object = leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
+                const std::uint32_t object =
+                    leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
                 const float t = other_hit_distance(scene, object, ray, reach);
                 if (t <= reach) keep(t, scene.order[object]);
               }
@@ -97,31 +103,31 @@ struct WideSearch {
   }
 
   template <bool kOthers, class Manner>
-  [[gnu::flatten, gnu::noinline]] static bool any(const WideScene& scene, const Manner& manner, const Ray<float>& given) {
+  [[gnu::flatten, gnu::noinline]] static bool any(const WideScene& scene, const Manner& manner,
+                                                  const Ray<float>& given) {
     bool blocked = false;
-    const WideRay prepared(given);
+    const WideRay<Isa> prepared(given);
     const Ray<float>& ray = prepared.begun;
     if (scene.tree.empty() || !prepared.can_hit) return blocked;
     const WideCrossings<Isa, float> crossings(prepared);
     const WideTriangleTest<Isa> test(prepared);
-    walk_wide_unordered<Isa>(
-        scene.tree, crossings, NoCount{}, ray.t_max, manner,
-        [&](WideChild leaf) {
-          const std::uint32_t count = leaf.count();
-          const float* const rows = scene.triangles.leaf(leaf);
-          for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
-            unsigned no_triangles = 0;
-            if constexpr (kOthers) no_triangles = others(rows, count, first);
-            if (!(kOthers && no_triangles == in_use(count, first)))
-            if (test(rows, count, first, ray.t_max).bits != 0) return blocked = true;
-            if constexpr (kOthers)
-              for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
-                const std::uint32_t object = leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
-                if (other_hit_distance(scene, object, ray, ray.t_max) <= ray.t_max) return blocked = true;
-              }
+    walk_wide_unordered<Isa>(scene.tree, crossings, NoCount{}, ray.t_max, manner, [&](WideChild leaf) {
+      const std::uint32_t count = leaf.count();
+      const float* const rows = scene.triangles.leaf(leaf);
+      for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
+        unsigned no_triangles = 0;
+        if constexpr (kOthers) no_triangles = others(rows, count, first);
+        if (!(kOthers && no_triangles == in_use(count, first)))
+          if (test(rows, count, first, ray.t_max).bits != 0) return blocked = true;
+        if constexpr (kOthers)
+          for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
+            const std::uint32_t object =
+                leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
+            if (other_hit_distance(scene, object, ray, ray.t_max) <= ray.t_max) return blocked = true;
           }
-          return false;
-        });
+      }
+      return false;
+    });
     return blocked;
   }
 
@@ -132,7 +138,8 @@ struct WideSearch {
   /// One bit for each object from number `first` on among the `count` of a leaf that is no triangle.
   static unsigned others(const float* leaf, std::uint32_t count, std::uint32_t first) {
     const std::uint32_t left = count - first;
-    return Isa::no_numbers(Isa::load(leaf + first)) & (left < Isa::kObjects ? (1u << left) - 1 : (1u << Isa::kObjects) - 1);
+    return Isa::no_numbers(Isa::load(leaf + first)) &
+           (left < Isa::kObjects ? (1u << left) - 1 : (1u << Isa::kObjects) - 1);
   }
 };
 

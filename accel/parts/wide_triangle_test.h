@@ -14,7 +14,7 @@ class WideTriangleTest {
   using Floats = typename Isa::Floats;
   using Doubles = typename Isa::Doubles;
 
-  explicit WideTriangleTest(const WideRay& ray) : ray_(ray) {}
+  explicit WideTriangleTest(const WideRay<Isa>& ray) : ray_(ray) {}
 
   struct Distances {
     /// One bit for each object that is hit.
@@ -65,7 +65,8 @@ class WideTriangleTest {
     for (int axis = 0; axis < 3; ++axis) {
       lo[axis] = Isa::smaller(corner[0][axis], Isa::smaller(corner[1][axis], corner[2][axis]));
       hi[axis] = Isa::larger(corner[0][axis], Isa::larger(corner[1][axis], corner[2][axis]));
-      magnitude = Isa::larger(magnitude, Isa::larger(Isa::larger(lo[axis], -lo[axis]), Isa::larger(hi[axis], -hi[axis])));
+      magnitude = Isa::larger(
+          magnitude, Isa::larger(Isa::larger(lo[axis], -lo[axis]), Isa::larger(hi[axis], -hi[axis])));
     }
     const Floats margin = Isa::spread(padding(1.0f)) * magnitude;
     Floats enter[3], exit[3];
@@ -78,10 +79,11 @@ class WideTriangleTest {
     const Floats enters = Isa::larger(Isa::larger(enter[0], enter[1]), enter[2]);
     const Floats exits = Isa::smaller(Isa::smaller(exit[0], exit[1]), exit[2]);
     found.t = Isa::smaller(Isa::larger(t, enters), exits);
-    found.bits &= Isa::not_above(enters, exits) & Isa::below(Isa::spread(ray_.begun.t_min), found.t) & Isa::not_above(found.t, Isa::spread(reach));
+    found.bits &= Isa::not_above(enters, exits) & Isa::below(Isa::spread(ray_.begun.t_min), found.t) &
+                  Isa::not_above(found.t, Isa::spread(reach));
   }
 
-  const WideRay& ray_;
+  const WideRay<Isa>& ray_;
 };
 
 }  // namespace rayshoot

@@ -14,7 +14,8 @@ class WideTriangles {
   static constexpr std::size_t kBytes = kRows * sizeof(float);
 
   WideTriangles() = default;
-  WideTriangles(const Geometry<float>& geometry, std::span<const std::uint32_t> order, const WideTree<float>& tree);
+  WideTriangles(const Geometry<float>& geometry, std::span<const std::uint32_t> order,
+                const WideTree<float>& tree);
 
   const float* leaf(WideChild leaf) const { return rows_.data() + std::size_t{kRows} * leaf.first(); }
   const char* begin() const { return reinterpret_cast<const char*>(rows_.data()); }

@@ -24,7 +24,8 @@ struct MetChildren {
 
   static MetChildren of(unsigned bits, __m256 distances) {
     const __m256i numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i cleared = _mm256_andnot_si256(_mm256_set1_epi32(kChildBits), _mm256_castps_si256(distances));
+    const __m256i cleared =
+        _mm256_andnot_si256(_mm256_set1_epi32(kChildBits), _mm256_castps_si256(distances));
     return {bits, _mm256_or_si256(cleared, numbers)};
   }
   /// The child with the least key of those whose bits are set.
@@ -32,13 +33,15 @@ struct MetChildren {
     const __m256i kept = Isa::kept(keys, bits);
     const __m128i four = _mm_min_epi32(_mm256_castsi256_si128(kept), _mm256_extracti128_si256(kept, 1));
     const __m128i two = _mm_min_epi32(four, _mm_shuffle_epi32(four, 0x4E));
-    return static_cast<unsigned>(_mm_cvtsi128_si32(_mm_min_epi32(two, _mm_shuffle_epi32(two, 0xB1)))) & kChildBits;
+    return static_cast<unsigned>(_mm_cvtsi128_si32(_mm_min_epi32(two, _mm_shuffle_epi32(two, 0xB1)))) &
+           kChildBits;
   }
   /// No key of a child that is entered at `distance` or before is above this one.
   static int last_key(float distance) { return std::bit_cast<int>(distance) | kChildBits; }
 };
 
 /// A ray that has `begun`, with its `Crossings` in lanes, of which the fourth is of no account.
+template <class Isa>
 struct WideRay {
   Ray<float> begun;
   __m128 inverse, earliest, latest;
@@ -73,7 +76,7 @@ class WideCrossings;
 template <class Isa>
 class WideCrossings<Isa, float> {
  public:
-  explicit WideCrossings(const WideRay& ray) {
+  explicit WideCrossings(const WideRay<Isa>& ray) {
     const auto signs = static_cast<unsigned>(_mm_movemask_ps(ray.inverse));
     for (int axis = 0; axis < 3; ++axis) {
       origin_[axis] = _mm256_set1_ps(ray.begun.origin[axis]);
@@ -85,7 +88,8 @@ class WideCrossings<Isa, float> {
   }
 
   MetChildren<Isa> met(const WideNode<float>& node, float reach) const {
-    const __m256 enter = _mm256_max_ps(_mm256_max_ps(enters(node, 0), enters(node, 1)), _mm256_max_ps(enters(node, 2), start_));
+    const __m256 enter = _mm256_max_ps(_mm256_max_ps(enters(node, 0), enters(node, 1)),
+                                       _mm256_max_ps(enters(node, 2), start_));
     const __m256 exit = _mm256_min_ps(_mm256_min_ps(exits(node, 0), exits(node, 1)),
                                       _mm256_min_ps(exits(node, 2), _mm256_set1_ps(reach)));
     return MetChildren<Isa>::of(Isa::not_above(enter, exit), enter);
@@ -145,26 +149,44 @@ class WideCrossings<Isa, double> {
     keep_branch();
   };
   switch (which) {
-    case 0: arrive(0); break;
-    case 1: arrive(1); break;
-    case 2: arrive(2); break;
-    case 3: arrive(3); break;
-    case 4: arrive(4); break;
-    case 5: arrive(5); break;
-    case 6: arrive(6); break;
-    case 7: arrive(7); break;
-    default: __builtin_unreachable();
+    case 0:
+      arrive(0);
+      break;
+    case 1:
+      arrive(1);
+      break;
+    case 2:
+      arrive(2);
+      break;
+    case 3:
+      arrive(3);
+      break;
+    case 4:
+      arrive(4);
+      break;
+    case 5:
+      arrive(5);
+      break;
+    case 6:
+      arrive(6);
+      break;
+    case 7:
+      arrive(7);
+      break;
+    default:
+      __builtin_unreachable();
   }
   return child;
 }
 
 /// How to walk when successive rays take much the same way: the next child is guessed.
+template <class Isa>
 struct WideCoherent {
   static WideChild next(const WideChild* children, unsigned which) { return guessed(children, which); }
   static void fetch(WideChild) {}
 };
 /// How to walk when they do not: guesses would fail, and what waits is best fetched meanwhile.
-template <class Real>
+template <class Isa, class Real>
 struct WideIncoherent {
   const WideNode<Real>* nodes;
   /// What leaves hold, `bytes` for each object.
@@ -172,11 +194,12 @@ struct WideIncoherent {
   std::size_t bytes;
 
   /// Of a node all, and of most leaves.
-  static constexpr int kLines = sizeof(WideNode<float>) / 64;
+  static constexpr int kLines = sizeof(WideNode<Real>) / 64;
 
   static WideChild next(const WideChild* children, unsigned which) { return children[which]; }
   void fetch(WideChild child) const {
-    const char* const at = child.is_leaf() ? leaves + bytes * child.first() : reinterpret_cast<const char*>(nodes + child.node());
+    const char* const at = child.is_leaf() ? leaves + bytes * child.first()
+                                           : reinterpret_cast<const char*>(nodes + child.node());
     for (int line = 0; line < kLines; ++line) __builtin_prefetch(at + 64 * line);
   }
 };
@@ -197,7 +220,8 @@ class WideStack {
 
   /// Keep all children that were met but the nearest, which is returned.
   template <class Real, class Manner>
-  WideChild push_farther(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met, const Manner& manner) {
+  WideChild push_farther(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met,
+                         const Manner& manner) {
     const auto first = static_cast<unsigned>(std::countr_zero(met.bits));
     const unsigned others = met.bits & (met.bits - 1);
     if (others == 0) return manner.next(node.child, first);
@@ -220,7 +244,8 @@ class WideStack {
   }
 
   template <class Real, class Manner>
-  WideChild push_sorted(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met, const Manner& manner) {
+  WideChild push_sorted(unsigned& waiting, const WideNode<Real>& node, const MetChildren<Isa>& met,
+                        const Manner& manner) {
     const __m256i places = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
     const __m256i bits = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(met.bits)), places);
     // What was not met sorts behind everything.
@@ -261,8 +286,8 @@ class WideStack {
 ///   visit(leaf)  is called with each leaf, a WideChild; true ends the walk
 ///   reach()      is the distance at which the walk may end; leaves that begin there are still visited
 template <class Isa, class Real, class Counter, class Reach, class Manner, class Visit>
-void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count, const Reach& reach,
-               const Manner& manner, const Visit& visit) {
+void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count,
+               const Reach& reach, const Manner& manner, const Visit& visit) {
   WideStack<Isa> stack;
   unsigned waiting = 0;
   WideChild current = WideChild::interior(0);
@@ -285,8 +310,8 @@ void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& cross
 
 /// The leaves of a wide hierarchy that a ray meets up to `reach`, in no order of distance: for those who look for any hit.
 template <class Isa, class Real, class Counter, class Manner, class Visit>
-void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count, Real reach,
-                         const Manner& manner, const Visit& visit) {
+void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count,
+                         Real reach, const Manner& manner, const Visit& visit) {
   struct Waiting {
     const WideNode<Real>* node;
     unsigned bits;
@@ -314,7 +339,7 @@ void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Re
     }
     if (top == levels) return;
     --top;
-    current = manner.next(top->node->child, first(top->bits));
+    current = top->node->child[first(top->bits)];
     top->bits &= top->bits - 1;
     top += top->bits != 0;
   }

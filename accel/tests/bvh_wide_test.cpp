@@ -63,7 +63,8 @@ TEST(BvhWide, SeeksAnyHitWithoutOrderAndStopsAtTheFirst) {
   const Geometry<float> geometry(load_scene("mount:4").scene);
   const auto rays = nasty::rays(geometry, 1, 300);
   const auto engine = build<float>("bvh_wide", geometry);
-  const Work any = counted(*engine, Query::any, rays).work, closest = counted(*engine, Query::closest, rays).work,
+  const Work any = counted(*engine, Query::any, rays).work,
+             closest = counted(*engine, Query::closest, rays).work,
              strict = counted(*engine, Query::strict, rays).work;
   EXPECT_LT(any.object_tests, closest.object_tests);
   EXPECT_LT(closest.object_tests, strict.object_tests);
@@ -80,7 +81,8 @@ TEST(BvhWide, MoreChoiceNeverCostsMore) {
   const Geometry<float> geometry(load_scene("mount:5/patches").scene);
   double least = std::numeric_limits<double>::infinity();
   for (const char* max_objects : {"1", "2", "3", "4", "5", "6", "7", "8"}) {
-    const auto engine = build<float>("bvh_wide", geometry, {{"max_objects", max_objects}, {"leaf_cost", "2"}});
+    const auto engine =
+        build<float>("bvh_wide", geometry, {{"max_objects", max_objects}, {"leaf_cost", "2"}});
     EXPECT_LE(expected_cost(*engine, 2), least * 1.00001);
     least = expected_cost(*engine, 2);
   }
@@ -124,7 +126,8 @@ TEST(BvhWide, MakesKernelsOnlyForWhatTheyServe) {
   };
   const double of_triangles = bytes_an_object(Geometry<float>(triangles));
   EXPECT_GT(of_triangles, 44);
-  EXPECT_LT(bytes_an_object(Geometry<float>(triangles, ConeSides::both, Intersector::watertight)), of_triangles - 30);
+  EXPECT_LT(bytes_an_object(Geometry<float>(triangles, ConeSides::both, Intersector::watertight)),
+            of_triangles - 30);
 }
 
 }  // namespace
