@@ -49,7 +49,7 @@ struct WideRay {
   bool can_hit;
 
   explicit WideRay(const Ray<float>& given) {
-    static_assert(sizeof(Ray<float>) == sizeof(__m256));
+    static_assert(offsetof(Ray<float>, time) == sizeof(__m256));
     // The ray is read and written as a whole: parts of it would have to wait for one another.
     const __m256 all = _mm256_loadu_ps(&given.origin.x);
     const __m256 from_zero = _mm256_blend_ps(all, _mm256_max_ps(all, _mm256_setzero_ps()), 0b1000);

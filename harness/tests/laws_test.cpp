@@ -8,6 +8,7 @@
 #include "accel/core/registry.h"
 #include "accel/tests/built_engine.h"
 #include "accel/tests/conformance.h"
+#include "accel/tests/nasty_scenes.h"
 #include "scenes/io/load_scene.h"
 #include "scenes/rays/load_rays.h"
 
@@ -133,10 +134,7 @@ TEST_F(BrokenLaws, Equation19NeedsWhatBothHave) {
   expect_broken(laws_.parallel("", one, one, other), "is in A1||A2 but not in both");
 }
 
-class LawsOnScenes : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(LawsOnScenes, HoldForAllTechniquesAndExpressions) {
-  const Scene scene = load_scene(GetParam()).scene;
+void expect_laws(const Scene& scene) {
   const Geometry<double> geometry(scene);
   const Arguments none;
   const auto exhaustive = technique_entry("exhaustive").build<double>({geometry, none});
@@ -153,6 +151,10 @@ TEST_P(LawsOnScenes, HoldForAllTechniquesAndExpressions) {
   EXPECT_GE(checks, 150);
 }
 
+class LawsOnScenes : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(LawsOnScenes, HoldForAllTechniquesAndExpressions) { expect_laws(load_scene(GetParam()).scene); }
+
 INSTANTIATE_TEST_SUITE_P(Scenes, LawsOnScenes,
                          ::testing::Values("balls:2", "gears:1", "mount:4", "rings:2", "teapot:4", "tetra:4",
                                            "tree:5", "lattice:4", "stadium", "pyramid:2", "lumpy:2"),
@@ -160,6 +162,18 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LawsOnScenes,
                            const std::string spec = scene.param;
                            return spec.substr(0, spec.find(':'));
                          });
+
+class LawsOnRandomScenes : public ::testing::TestWithParam<int> {};
+
+TEST_P(LawsOnRandomScenes, HoldForAllTechniquesAndExpressions) {
+  nasty::Random random(static_cast<std::uint64_t>(GetParam()));
+  SceneBuilder builder;
+  builder.view({.from = {0, 0, -12}});
+  nasty::soup(builder, random, 40 * GetParam());
+  expect_laws(std::move(builder).finish());
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, LawsOnRandomScenes, ::testing::Range(1, 6));
 
 }  // namespace
 }  // namespace rayshoot
