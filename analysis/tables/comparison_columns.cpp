@@ -1,3 +1,4 @@
+#include "analysis/statistics/outliers.h"
 #include "analysis/tables/comparison.h"
 #include "analysis/tables/labels.h"
 
@@ -204,6 +205,8 @@ std::vector<ComparisonColumn> time_columns() {
        [](const Group&, const Entry& entry) { return high_of(time_per_ray(entry)); }},
       {in_csv("repetitions"),
        [](const Group&, const Entry& entry) { return whole(entry.measurement->trace_ns.size()); }},
+      {in_csv("outliers"),
+       [](const Group&, const Entry& entry) { return whole(outliers(entry.measurement->trace_ns).size()); }},
       {in_csv("trace_threads"),
        [](const Group&, const Entry& entry) {
          return whole(static_cast<std::uint64_t>(entry.measurement->trace_threads));

@@ -212,5 +212,16 @@ TEST(Comparison, KeysOfColumnsAreUnique) {
     EXPECT_TRUE(keys.insert(column.column.key).second) << column.column.key;
 }
 
+/// The median is 22500, the median distance from it 1500: 22500 + 10 * 1.4826 * 1500 is 44739.
+TEST(Comparison, TellsOutliersAndKeepsThem) {
+  report::Report report = small_report();
+  EXPECT_EQ(number_in(measured(report), "uniform_grid(density=1)", "outliers"), 0);
+  const double before = number_in(measured(report), "uniform_grid(density=1)", "trace_ns_per_ray");
+  measurement(report, "uniform_grid").trace_ns.back() = 45000;
+  EXPECT_EQ(number_in(measured(report), "uniform_grid(density=1)", "outliers"), 1);
+  EXPECT_EQ(number_in(measured(report), "uniform_grid(density=1)", "repetitions"), 6);
+  EXPECT_EQ(number_in(measured(report), "uniform_grid(density=1)", "trace_ns_per_ray"), before);
+}
+
 }  // namespace
 }  // namespace rayshoot::analysis
