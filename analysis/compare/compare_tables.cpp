@@ -196,7 +196,7 @@ std::string in_words(const Comparison& comparison) {
       return cell.trace.judgement == judgement || cell.build.judgement == judgement;
     };
   };
-  std::string text = fmt::format("Of {}, {} are slower, {} faster, and {} have another count",
+  std::string text = fmt::format("Of {}: {} slower, {} faster, {} with another count",
                                  cells_in_words(comparison.cells.size()), count(judged(Judgement::slower)),
                                  count(judged(Judgement::faster)),
                                  count([](const ComparedCell& cell) { return !cell.counts.empty(); }));

@@ -11,7 +11,7 @@ namespace rayshoot::analysis {
 /// the counts that changed. In CSV all cells and nothing else.
 std::string render_compare(const Comparison& comparison, Format format, bool all_cells);
 
-/// What the first of these says: "2 of 125 cells are slower by more than 5 %, ...".
+/// What the first of these says: "Of 125 cells: 2 slower, 0 faster, 1 with another count".
 std::string in_words(const Comparison& comparison);
 
 }  // namespace rayshoot::analysis

@@ -75,13 +75,15 @@ std::optional<std::vector<double>> fitted(const std::vector<Row*>& rows, const U
 }
 
 /// Whether a row lies so far outside of what was measured in other scenes that its constants are guesses: a term is more
-/// than ten times as large as any that its constant was fitted to.
+/// than ten times as large as any there, of the same technique where techniques have constants of their own.
 bool is_beyond(const Row& row, const std::vector<Row*>& rows, const CostModel& model) {
+  const bool by_technique = std::any_of(model.constants.begin(), model.constants.end(),
+                                        [](const Constant& c) { return c.of_technique; });
   for (std::size_t i = 0; i < row.terms.size(); ++i) {
     double greatest = 0;
     for (const Row* other : rows)
       if (other->cell.group->scene_id != row.cell.group->scene_id &&
-          (!model.constants[i].of_technique || other->technique == row.technique))
+          (!by_technique || other->technique == row.technique))
         greatest = std::max(greatest, other->terms[i]);
     if (row.terms[i] > kFarthest * greatest) return true;
   }

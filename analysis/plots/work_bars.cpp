@@ -15,7 +15,9 @@ namespace rayshoot::analysis {
 namespace {
 
 constexpr double kBar = 9, kGap = 6, kLegend = 30, kNameWidth = 142, kNumberWidth = 52;
-constexpr std::size_t kMostNameCharacters = 22;
+/// Longer names are set smaller, and on several lines.
+constexpr std::size_t kMostLargeCharacters = 20, kMostNameCharacters = 22, kMostNameLines = 3;
+constexpr double kNameLine = 9.5;
 /// Bars longer than so many times that of a technique at the third quartile are broken off, and so leave room to the others.
 constexpr double kLongest = 3;
 
@@ -43,13 +45,23 @@ double longest_bar(const std::vector<MeanRow>& rows) {
   return std::min(longest.back(), kLongest * longest[3 * (longest.size() - 1) / 4]);
 }
 
-std::string shortened(const std::string& label) {
-  if (display_width(label) <= kMostNameCharacters) return label;
-  return wrapped(label, kMostNameCharacters - 1)[0] + "…";
+/// A name on as many lines as a row has room for.
+void draw_name(Svg& svg, const std::string& label, double middle) {
+  std::vector<std::string> lines = wrapped(label, kMostNameCharacters);
+  if (lines.size() > kMostNameLines) {
+    lines.resize(kMostNameLines);
+    lines.back() += "…";
+  }
+  const char* style = display_width(label) > kMostLargeCharacters ? "tiny" : "small";
+  double baseline = middle + 4 - kNameLine * static_cast<double>(lines.size() - 1) / 2;
+  for (const std::string& line : lines) {
+    svg.text({kNameWidth, baseline}, line, Svg::Anchor::end, style);
+    baseline += kNameLine;
+  }
 }
 
 void draw_row(Svg& svg, const MeanRow& row, double top, double unit, double longest) {
-  svg.text({kNameWidth, top + 1.5 * kBar + 4}, shortened(row.label), Svg::Anchor::end, "small");
+  draw_name(svg, row.label, top + 1.5 * kBar);
   for (std::size_t i = 0; i < row.means.size(); ++i) {
     const double mean = row.means[i].value_or(0), y = top + kBar * static_cast<double>(i);
     if (mean == 0) continue;

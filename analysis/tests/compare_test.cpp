@@ -249,7 +249,7 @@ TEST(Compare, SaysInWordsWhatChanged) {
   ++after.measurements[1].work->steps;
   for (double& time : after.measurements[5].trace_ns) time *= 3;
   const Comparison comparison = compare(before, after, {});
-  EXPECT_EQ(in_words(comparison), "Of 7 cells, 1 are slower, 0 faster, and 1 have another count");
+  EXPECT_EQ(in_words(comparison), "Of 7 cells: 1 slower, 0 faster, 1 with another count");
   const std::string shown = render_compare(comparison, Format::markdown, false);
   EXPECT_THAT(shown, HasSubstr("| bvh\\_sah | balls:2/curves, whitted@9, float |"));
   EXPECT_THAT(shown, HasSubstr("| slower |"));

@@ -59,7 +59,7 @@ TEST_F(ReportCommands, CompareOfAReportWithItselfFindsNothing) {
   write("old.json");
   const Outcome same = program({"compare", "old.json", "old.json"});
   EXPECT_EQ(same.status, 0) << same.errors;
-  EXPECT_THAT(same.output, HasSubstr("Of 18 cells, 0 are slower, 0 faster, and 0 have another count"));
+  EXPECT_THAT(same.output, HasSubstr("Of 18 cells: 0 slower, 0 faster, 0 with another count"));
 }
 
 TEST_F(ReportCommands, CompareFailsWhenACountChangesOrATimeGrows) {
