@@ -139,6 +139,19 @@ std::string drift_note(const report::Report& report, const std::string& which) {
       check.chance < 0.01 ? "; more than by chance: the machine drifted while it measured" : "");
 }
 
+std::string cells_in_words(std::size_t count) {
+  return fmt::format("{} cell{}", count, count == 1 ? "" : "s");
+}
+
+std::string repetitions_note(const Comparison& comparison) {
+  const auto few =
+      std::count_if(comparison.cells.begin(), comparison.cells.end(),
+                    [](const ComparedCell& cell) { return cell.trace.ratio && !cell.trace.ratio->interval; });
+  if (few == 0) return {};
+  return fmt::format("{} have too few repetitions for an interval: no slowdown of theirs can be flagged.",
+                     cells_in_words(static_cast<std::size_t>(few)));
+}
+
 std::string environment_note(const Comparison& comparison) {
   const report::Environment &before = comparison.before->environment, &after = comparison.after->environment;
   std::vector<std::string> differing;
@@ -174,15 +187,12 @@ std::vector<std::string> notes_of(const Comparison& comparison) {
       listed("Other rays or objects under the same name, and so not compared", comparison.inputs_changed),
       listed("Only in the old report", comparison.only_before),
       listed("Only in the new report", comparison.only_after),
+      repetitions_note(comparison),
       environment_note(comparison),
       drift_note(*comparison.before, "old"),
       drift_note(*comparison.after, "new")};
   std::erase(notes, "");
   return notes;
-}
-
-std::string cells_in_words(std::size_t count) {
-  return fmt::format("{} cell{}", count, count == 1 ? "" : "s");
 }
 
 }  // namespace

@@ -243,6 +243,15 @@ TEST(Compare, NamesCellsThatOnlyOneReportHas) {
   EXPECT_THROW(compare(before, after, {}), report::ReportError);
 }
 
+TEST(Compare, SaysWhereNothingCanBeFlagged) {
+  Report before = small_report();
+  for (report::Measurement& cell : before.measurements)
+    if (cell.technique == "bvh_sah") cell.trace_ns.resize(3);
+  const Comparison comparison = compare(before, before, {});
+  EXPECT_THAT(render_compare(comparison, Format::text, false), HasSubstr("2 cells have too few repetitions"))
+      << "this one and the fine grid";
+}
+
 TEST(Compare, SaysInWordsWhatChanged) {
   const Report before = small_report();
   Report after = small_report();
