@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "analysis/plots/svg.h"
 #include "analysis/tables/page.h"
 
@@ -32,8 +34,8 @@ ul.notes{font-size:.84rem;color:var(--faint);margin:.2rem 0 1rem;padding-left:1.
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,30rem),1fr));gap:1.2rem}
 figure{margin:0;break-inside:avoid}figure h3{margin:.2rem 0}figcaption{font-size:.84rem;color:var(--faint)}
 svg.plot{display:block;width:100%;height:auto;max-width:44rem}
-dl{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1rem;font-size:.88rem}dt{font-weight:600}dd{margin:0}
-@media (max-width:34rem){body{padding:.6rem}th:first-child{max-width:8.5rem}th,td{padding:.16rem .35rem}dl{grid-template-columns:1fr}dd{margin:0 0 .4rem 1rem}}
+dl{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1rem;font-size:.88rem}dt{font-weight:600}dd{margin:0;grid-column:2}
+@media (max-width:34rem){body{padding:.6rem}th:first-child{max-width:8.5rem}th,td{padding:.16rem .35rem}dl{grid-template-columns:1fr}dd{grid-column:1;margin:0 0 .4rem 1rem}}
 @media print{:root{color-scheme:light;--ink:#000;--faint:#333;--ground:#fff;--panel:#f2f2f2;--rule:#aaa;--link:#000;--bad:#000}
 body{max-width:none;padding:0;font-size:10pt}nav{display:none}.scroll{overflow:visible}table{font-size:6.5pt}th,td{padding:.08rem .25rem}
 ul.notes,figcaption,dl{font-size:7pt}tr{break-inside:avoid}h2,h3{break-after:avoid}.figures{grid-template-columns:1fr 1fr}th:first-child{position:static}}
@@ -114,9 +116,17 @@ std::string html_figure(const Plot& plot) {
 }
 
 std::string html_legend(const std::vector<Table>& tables) {
+  // A title may mean one thing here and another there.
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const auto& [title, meaning] : legend(tables)) {
+    const auto same = [&name = title](const auto& line) { return line.first == name; };
+    auto line = std::find_if(lines.begin(), lines.end(), same);
+    if (line == lines.end()) line = lines.insert(lines.end(), {title, ""});
+    line->second += fmt::format("<dd>{}</dd>\n", xml_escaped(meaning));
+  }
   std::string result = "<dl>\n";
-  for (const auto& [title, meaning] : legend(tables))
-    result += fmt::format("<dt>{}</dt><dd>{}</dd>\n", xml_escaped(title), xml_escaped(meaning));
+  for (const auto& [title, meanings] : lines)
+    result += fmt::format("<dt>{}</dt>{}", xml_escaped(title), meanings);
   return result + "</dl>\n";
 }
 

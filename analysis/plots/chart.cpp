@@ -101,7 +101,7 @@ bool Chart::name(Point value, const std::string& text) {
     const Box box{corner.x, corner.y, corner.x + width, corner.y + height};
     if (!is_free(box)) continue;
     taken_.push_back(box);
-    svg_.text({corner.x, corner.y + height - 2}, text, Svg::Anchor::start, "name");
+    svg_.text({corner.x, corner.y + height - 2}, text, Svg::Anchor::start, "small");
     return true;
   }
   return false;

@@ -100,7 +100,7 @@ font:12.5px system-ui,sans-serif;color:var(--ink)}
 --c0:#4aa8e0;--c1:#ee7733;--c2:#2cc498;--c3:#dd99bd;--c4:#f0b030;--c5:#8fd0f5;--c6:#b4bcc6}}
 @media print{svg.plot{--ink:#000;--faint:#444;--grid:#ddd;--ground:#fff;
 --c0:#0072b2;--c1:#d55e00;--c2:#009e73;--c3:#cc79a7;--c4:#e69f00;--c5:#56b4e9;--c6:#4b5563}}
-svg.plot text{fill:var(--ink)}svg.plot .small{font-size:11.5px}svg.plot .tiny{font-size:9px}svg.plot .name{font-size:11.5px;paint-order:stroke;stroke:var(--ground);stroke-width:3px}svg.plot .faint{fill:var(--faint)}
+svg.plot text{fill:var(--ink)}svg.plot .small{font-size:11.5px}svg.plot .tiny{font-size:9px}svg.plot .faint{fill:var(--faint)}
 svg.plot .ground{fill:var(--ground)}
 svg.plot .grid{stroke:var(--grid);fill:none}svg.plot .axis{stroke:var(--faint);fill:none}
 svg.plot .reference{stroke:var(--ink);stroke-dasharray:5 4;fill:none}

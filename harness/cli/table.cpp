@@ -21,7 +21,7 @@ struct Options {
 /// Options that choose what is shown; each one asks for tables of one's own.
 std::vector<CLI::Option*> add_choices(CLI::App& command, analysis::PivotOptions& pivot) {
   const auto dimensions = [&](const char* name, std::vector<std::string>& target, const char* meaning) {
-    return command.add_option(name, target, meaning)
+    return repeatable(command.add_option(name, target, meaning))
         ->delimiter(',')
         ->check(CLI::IsMember(analysis::kDimensions));
   };
@@ -30,7 +30,8 @@ std::vector<CLI::Option*> add_choices(CLI::App& command, analysis::PivotOptions&
         name, pivot.only[dimension], fmt::format("Only what matches in '{}'; may hold * and ?", dimension)));
   };
   return {
-      command.add_option("--metric", pivot.metrics, "What to show, by the names of the columns in CSV")
+      repeatable(
+          command.add_option("--metric", pivot.metrics, "What to show, by the names of the columns in CSV"))
           ->delimiter(','),
       dimensions("--rows", pivot.rows, "What stands in rows: run, scene, rays, precision, technique, metric"),
       dimensions("--columns", pivot.columns,

@@ -115,8 +115,8 @@ TEST_F(ReportCommands, ValidateFailsWhenABoundDoes) {
 
 TEST_F(ReportCommands, TablesOfOnesOwn) {
   write("r.json");
-  const Outcome table = program({"table", "r.json", "--rows", "technique", "--columns", "scene", "--metric",
-                                 "nodes", "--technique", "bvh_*", "--format", "csv"});
+  const Outcome table = program({"table", "--rows", "technique", "--columns", "scene", "--metric", "nodes",
+                                 "r.json", "--technique", "bvh_*", "--format", "csv"});
   EXPECT_EQ(table.status, 0) << table.errors;
   EXPECT_THAT(table.output,
               HasSubstr("technique,rays,precision,metric,tetra:1/curves,tetra:2/curves,tetra:3/curves\n"
