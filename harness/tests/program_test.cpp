@@ -256,6 +256,7 @@ TEST(Resume, GoesOnWhereARunWasKilled) {
   ASSERT_EQ(run_program(counted_run("whole.json"), folder.path()).status, 0);
   interrupt_program(counted_run("report.json"), "6 of 8 cells", folder.path(), SIGKILL);
   EXPECT_THAT(files_in(folder), UnorderedElementsAre("whole.json", "report.json.unfinished"));
+  EXPECT_FALSE(read(folder, "report.json.unfinished").run.complete);
   const std::size_t done = read(folder, "report.json.unfinished").scenes.size();
   EXPECT_GE(done, 2u);
   EXPECT_LT(done, 4u);
