@@ -270,7 +270,7 @@ TEST(Resume, GoesOnWhereARunWasKilled) {
 TEST(Resume, GoesOnWhereARunWasInterrupted) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program(counted_run("whole.json"), folder.path()).status, 0);
-  EXPECT_EQ(interrupt_program(counted_run("report.json"), "4 of 8 cells", folder.path()).status, 130);
+  EXPECT_EQ(interrupt_program(counted_run("report.json"), "6 of 8 cells", folder.path()).status, 130);
   EXPECT_FALSE(read(folder, "report.json").run.complete);
   EXPECT_EQ(run_program(counted_run("report.json", {"--resume"}), folder.path()).status, 0);
   EXPECT_EQ(contents(read(folder, "report.json")), contents(read(folder, "whole.json")));
