@@ -118,8 +118,8 @@ struct Judged {
 /// Give all times a judgement whose chances, corrected for the whole table, are small: half of the error each way.
 template <class Chance>
 void judge(const std::vector<Judged>& all, Judgement judgement, const Chance& chance) {
-  std::vector<double> chances;
-  for (const Judged& judged : all) chances.push_back(chance(judged));
+  std::vector<double> chances(all.size());
+  std::transform(all.begin(), all.end(), chances.begin(), chance);
   const std::vector<double> adjusted = benjamini_hochberg(chances);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (adjusted[i] <= (1 - kConfidence) / 2) all[i].change->judgement = judgement;

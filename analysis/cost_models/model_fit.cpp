@@ -144,9 +144,9 @@ ModelFit fit_model(const CostModel& model, const std::string& precision,
   std::map<std::string, std::vector<Row*>> together;
   for (Row& row : rows) together[is_separate(model) ? row.technique : kAllTechniques].push_back(&row);
   for (const auto& [name, members] : together) fit_together(fit, members);
-  for (Row& row : rows) {
+  for (const Row& row : rows) {
     fit.silent += !row.cell.predicted;
-    fit.cells.push_back(std::move(row.cell));
+    fit.cells.push_back(row.cell);
   }
   return fit;
 }

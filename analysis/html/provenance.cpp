@@ -21,6 +21,7 @@ Cell words(std::string text) { return {std::nullopt, std::move(text)}; }
 template <class Value>
 std::string listed(const std::map<std::string, Value>& map) {
   std::vector<std::string> parts;
+  parts.reserve(map.size());
   for (const auto& [name, value] : map) parts.push_back(fmt::format("{} {}", name, value));
   return fmt::format("{}", fmt::join(parts, ", "));
 }

@@ -45,11 +45,13 @@ Axis::Axis(std::span<const double> values, std::string title) : title_(std::move
 double Axis::position(double value) const { return std::log(value / low_) / std::log(high_ / low_); }
 
 std::vector<Axis::Tick> Axis::ticks() const {
-  const double decades = std::log10(high_ / low_), skip = std::ceil(decades / kMostTicks);
+  const double decades = std::log10(high_ / low_);
+  const int skip = static_cast<int>(std::ceil(decades / kMostTicks));
   const std::vector<double> factors = decades > 2.5 ? std::vector{1.0} : std::vector{1.0, 2.0, 5.0};
   std::vector<Tick> result;
-  for (double power = std::floor(std::log10(low_)); power <= std::log10(high_); ++power) {
-    if (std::fmod(power, skip) != 0) continue;
+  const int last = static_cast<int>(std::floor(std::log10(high_)));
+  for (int power = static_cast<int>(std::floor(std::log10(low_))); power <= last; ++power) {
+    if (power % skip != 0) continue;
     for (const double factor : factors)
       if (const double value = factor * std::pow(10, power); contains(value))
         result.push_back({value, label_of(value)});

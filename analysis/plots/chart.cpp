@@ -116,8 +116,9 @@ void Chart::legend(const std::vector<std::pair<std::string, MarkerStyle>>& serie
   const std::size_t rows = (series.size() + columns - 1) / columns;
   const double top = svg_.height() + 4, column_width = (kPlotWidth - 10) / static_cast<double>(columns);
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const Point at{10 + column_width * static_cast<double>(i / rows),
-                   top + kLineHeight * static_cast<double>(i % rows)};
+    const std::size_t column = i / rows, row = i % rows;
+    const Point at{10 + column_width * static_cast<double>(column),
+                   top + kLineHeight * static_cast<double>(row)};
     svg_.marker({at.x + 5, at.y}, series[i].second);
     svg_.text({at.x + 16, at.y + 4}, series[i].first, Svg::Anchor::start, "small");
   }

@@ -47,6 +47,7 @@ std::vector<Pair> pairs_of(const std::vector<Group>& groups, const Kind& kind) {
 
 double median_error(const std::vector<Pair>& pairs) {
   std::vector<double> errors;
+  errors.reserve(pairs.size());
   for (const Pair& pair : pairs) errors.push_back(std::abs(pair.predicted / pair.measured - 1));
   return median(errors)->value;
 }

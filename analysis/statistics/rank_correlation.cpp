@@ -37,7 +37,7 @@ std::optional<double> correlation(const std::vector<double>& a, const std::vecto
   return ab / std::sqrt(aa * bb);
 }
 
-int sign(double difference) { return (difference > 0) - (difference < 0); }
+long sign(double difference) { return (difference > 0) - (difference < 0); }
 
 }  // namespace
 
@@ -51,7 +51,7 @@ std::optional<double> kendall(std::span<const double> a, std::span<const double>
   long balance = 0, untied_a = 0, untied_b = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const int order_a = sign(a[i] - a[j]), order_b = sign(b[i] - b[j]);
+      const long order_a = sign(a[i] - a[j]), order_b = sign(b[i] - b[j]);
       balance += order_a * order_b;
       untied_a += order_a != 0;
       untied_b += order_b != 0;
