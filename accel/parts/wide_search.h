@@ -55,50 +55,41 @@ struct WideSearch {
   [[gnu::flatten, gnu::noinline]] static Hit<float> closest(const WideScene& scene, const Manner& manner,
                                                             const Ray<float>& given) {
     Hit<float> hit;
-    const WideRay<Isa> prepared(given);
-    const Ray<float>& ray = prepared.begun;
-    if (scene.tree.empty() || !prepared.can_hit) return hit;
-    const WideCrossings<Isa, float> crossings(prepared);
-    const WideTriangleTest<Isa> test(prepared);
-    float reach = ray.t_max;
+    const WideRay<Isa> ray(given);
+    if (scene.tree.empty() || !ray.can_hit) return hit;
+    float reach = ray.begun.t_max;
     const auto keep = [&](float t, std::uint32_t object) {
       if (t > reach || (t == hit.t && object > hit.object)) return;
       hit = {t, object}, reach = t;
     };
-    walk_wide<Isa>(
-        scene.tree, crossings, NoCount{}, [&] { return reach; }, manner,
-        [&](WideChild leaf) {
-          const std::uint32_t count = leaf.count();
-          const float* const rows = scene.triangles.leaf(leaf);
-          for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
-            unsigned no_triangles = 0;
-            if constexpr (kOthers) no_triangles = others(rows, count, first);
-            if (kOthers && no_triangles == in_use(count, first)) [[unlikely]] {
-              for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
-                const std::uint32_t object =
-                    leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
-                const float t = other_hit_distance(scene, object, ray, reach);
-                if (t <= reach) keep(t, scene.order[object]);
-              }
-              continue;
-            }
-            const auto found = test(rows, count, first, reach);
-            for (unsigned bits = found.bits; bits != 0; bits &= bits - 1) {
-              const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-              float t[Isa::kObjects];
-              std::memcpy(t, &found.t, sizeof t);
-              keep(t[lane], std::bit_cast<std::uint32_t>(rows[9 * count + first + lane]));
-            }
-            if constexpr (kOthers)
-              for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
-                const std::uint32_t object =
-                    leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
-                const float t = other_hit_distance(scene, object, ray, reach);
-                if (t <= reach) keep(t, scene.order[object]);
-              }
+
+    const WideTriangleTest<Isa> test(ray);
+    const auto visit = [&](WideChild leaf) {
+      const std::uint32_t count = leaf.count();
+      const float* const rows = scene.triangles.leaf(leaf);
+      for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
+        // Test the triangles of the leaf at once, then one by one what else is in it.
+        const unsigned others = kOthers ? no_triangles(rows, count, first) : 0;
+        if (others != in_use(count, first)) {
+          const auto found = test(rows, count, first, reach);
+          float t[Isa::kObjects];
+          if (found.bits != 0) std::memcpy(t, &found.t, sizeof t);
+          for (unsigned bits = found.bits; bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
+            keep(t[lane], std::bit_cast<std::uint32_t>(rows[9 * count + first + lane]));
           }
-          return false;
-        });
+        }
+        for (unsigned bits = others; bits != 0; bits &= bits - 1) {
+          const std::uint32_t place = place_of(leaf, first, bits);
+          const float t = other_hit_distance(scene, place, ray.begun, reach);
+          if (t <= reach) keep(t, scene.order[place]);
+        }
+      }
+      return false;
+    };
+    const WideCrossings<Isa, float> crossings(ray);
+    walk_wide<Isa>(
+        scene.tree, crossings, NoCount{}, [&] { return reach; }, manner, visit);
     return hit;
   }
 
@@ -106,40 +97,40 @@ struct WideSearch {
   [[gnu::flatten, gnu::noinline]] static bool any(const WideScene& scene, const Manner& manner,
                                                   const Ray<float>& given) {
     bool blocked = false;
-    const WideRay<Isa> prepared(given);
-    const Ray<float>& ray = prepared.begun;
-    if (scene.tree.empty() || !prepared.can_hit) return blocked;
-    const WideCrossings<Isa, float> crossings(prepared);
-    const WideTriangleTest<Isa> test(prepared);
-    walk_wide_unordered<Isa>(scene.tree, crossings, NoCount{}, ray.t_max, manner, [&](WideChild leaf) {
+    const WideRay<Isa> ray(given);
+    if (scene.tree.empty() || !ray.can_hit) return blocked;
+    const float reach = ray.begun.t_max;
+
+    const WideTriangleTest<Isa> test(ray);
+    const auto visit = [&](WideChild leaf) {
       const std::uint32_t count = leaf.count();
       const float* const rows = scene.triangles.leaf(leaf);
       for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
-        unsigned no_triangles = 0;
-        if constexpr (kOthers) no_triangles = others(rows, count, first);
-        if (!(kOthers && no_triangles == in_use(count, first)))
-          if (test(rows, count, first, ray.t_max).bits != 0) return blocked = true;
-        if constexpr (kOthers)
-          for (unsigned bits = no_triangles; bits != 0; bits &= bits - 1) {
-            const std::uint32_t object =
-                leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
-            if (other_hit_distance(scene, object, ray, ray.t_max) <= ray.t_max) return blocked = true;
-          }
+        const unsigned others = kOthers ? no_triangles(rows, count, first) : 0;
+        if (others != in_use(count, first) && test(rows, count, first, reach).bits != 0)
+          return blocked = true;
+        for (unsigned bits = others; bits != 0; bits &= bits - 1)
+          if (other_hit_distance(scene, place_of(leaf, first, bits), ray.begun, reach) <= reach)
+            return blocked = true;
       }
       return false;
-    });
+    };
+    const WideCrossings<Isa, float> crossings(ray);
+    walk_wide_unordered<Isa>(scene.tree, crossings, NoCount{}, reach, manner, visit);
     return blocked;
   }
 
+  // One bit for each object from number `first` on among the `count` of a leaf: for all, and for what is no triangle.
   static unsigned in_use(std::uint32_t count, std::uint32_t first) {
     const std::uint32_t left = count - first;
     return left < Isa::kObjects ? (1u << left) - 1 : (1u << Isa::kObjects) - 1;
   }
-  /// One bit for each object from number `first` on among the `count` of a leaf that is no triangle.
-  static unsigned others(const float* leaf, std::uint32_t count, std::uint32_t first) {
-    const std::uint32_t left = count - first;
-    return Isa::no_numbers(Isa::load(leaf + first)) &
-           (left < Isa::kObjects ? (1u << left) - 1 : (1u << Isa::kObjects) - 1);
+  static unsigned no_triangles(const float* leaf, std::uint32_t count, std::uint32_t first) {
+    return Isa::no_numbers(Isa::load(leaf + first)) & in_use(count, first);
+  }
+  /// The place in the order of the object that the lowest of the bits stands for.
+  static std::uint32_t place_of(WideChild leaf, std::uint32_t first, unsigned bits) {
+    return leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
   }
 };
 
