@@ -56,7 +56,8 @@ double Constants::predicted_ns(const TechniqueConstants& technique,
   double sum = 0;
   for (const auto& [term, count] : counts)
     for (const auto* constants : {&object_terms_ns, &technique.terms_ns})
-      if (const auto constant = constants->find(term); constant != constants->end()) sum += constant->second * count;
+      if (const auto constant = constants->find(term); constant != constants->end())
+        sum += constant->second * count;
   return sum;
 }
 
@@ -71,9 +72,10 @@ Constants parse_constants(const std::string& text_of_file, const std::string& na
                {"cells", number(constants.cells, 0, 1e9)},
                {"scenes",
                 [&](const Json& json, const Place& where) {
-                  for_each(json, where, [&](const Json& scene, const Place& here) {
-                    constants.scenes.push_back(text_of(scene, here));
-                  });
+                  if (!json.is_array() || !json.empty())
+                    for_each(json, where, [&](const Json& scene, const Place& here) {
+                      constants.scenes.push_back(text_of(scene, here));
+                    });
                 }},
                {"object_terms_ns", terms(constants.object_terms_ns, kObjectTerms)},
                {"techniques", techniques(constants.techniques)}});

@@ -23,13 +23,15 @@ double crowding_of(const std::vector<Vec3d>& centres, const Box<double>& box) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto count = static_cast<std::uint64_t>(cells[axis]);
       const double place = extent[axis] > 0 ? (centre[axis] - box.lo[axis]) / extent[axis] : 0;
-      const double layer = std::clamp(place * static_cast<double>(count), 0.0, static_cast<double>(count - 1));
+      const double layer =
+          std::clamp(place * static_cast<double>(count), 0.0, static_cast<double>(count - 1));
       cell = cell * count + static_cast<std::uint64_t>(layer);
     }
     ++occupants[cell];
   }
   double squares = 0;
-  for (const auto& [cell, count] : occupants) squares += static_cast<double>(count) * static_cast<double>(count);
+  for (const auto& [cell, count] : occupants)
+    squares += static_cast<double>(count) * static_cast<double>(count);
   return squares / static_cast<double>(centres.size());
 }
 
@@ -37,7 +39,8 @@ double spread_of(const std::vector<Vec3d>& centres, const Box<double>& box) {
   Vec3d middle;
   std::vector<double> places(centres.size());
   for (int axis = 0; axis < 3; ++axis) {
-    std::transform(centres.begin(), centres.end(), places.begin(), [axis](const Vec3d& c) { return c[axis]; });
+    std::transform(centres.begin(), centres.end(), places.begin(),
+                   [axis](const Vec3d& c) { return c[axis]; });
     const auto tail = static_cast<std::ptrdiff_t>(kTail * static_cast<double>(places.size()));
     const auto low = places.begin() + tail, high = places.end() - 1 - tail;
     std::nth_element(places.begin(), low, places.end());

@@ -33,7 +33,8 @@ Kinds kinds_of(const Engine<Real>& engine, const Geometry<Real>& geometry, const
   Kinds kinds;
   for (std::size_t i = 0; i < sample.rays.size(); ++i) {
     const Query query = i < sample.closest_rays ? Query::closest : Query::any;
-    for (const std::uint32_t object : engine.candidates(query, sample.rays[i], scratch)) add(kinds, geometry, object);
+    for (const std::uint32_t object : engine.candidates(query, sample.rays[i], scratch))
+      add(kinds, geometry, object);
   }
   return kinds;
 }
@@ -46,10 +47,13 @@ std::map<std::string, double> terms_of(const Engine<Real>& engine, const Geometr
   const auto scratch = engine.scratch();
   std::vector<Hit<Real>> hits(sample.rays.size());
   const std::span<Hit<Real>> all(hits);
-  CountedWork counted = engine.count(Query::closest, sample.closest(), all.first(sample.closest_rays), *scratch);
+  CountedWork counted =
+      engine.count(Query::closest, sample.closest(), all.first(sample.closest_rays), *scratch);
   counted += engine.count(Query::any, sample.any(), all.subspan(sample.closest_rays), *scratch);
   const Work& work = counted.total;
-  const auto per_ray = [rays = static_cast<double>(sample.rays.size())](double count) { return count / rays; };
+  const auto per_ray = [rays = static_cast<double>(sample.rays.size())](double count) {
+    return count / rays;
+  };
   const auto tests = static_cast<double>(work.object_tests);
 
   std::map<std::string, double> terms{{"ray", 1},
@@ -73,7 +77,9 @@ std::map<std::string, double> terms_of(const Engine<Real>& engine, const Geometr
   return terms;
 }
 
-template std::map<std::string, double> terms_of(const Engine<float>&, const Geometry<float>&, const Batch<float>&);
-template std::map<std::string, double> terms_of(const Engine<double>&, const Geometry<double>&, const Batch<double>&);
+template std::map<std::string, double> terms_of(const Engine<float>&, const Geometry<float>&,
+                                                const Batch<float>&);
+template std::map<std::string, double> terms_of(const Engine<double>&, const Geometry<double>&,
+                                                const Batch<double>&);
 
 }  // namespace rayshoot
