@@ -115,6 +115,8 @@ class Chooser {
                .intersector = question_.intersector,
                .statistics = statistics_.by_name(),
                .constants = constants_.origin(),
+               .fitted = std::find(constants_.scenes.begin(), constants_.scenes.end(), question_.scene.id) !=
+                         constants_.scenes.end(),
                .expected_rays = options_.expected_rays};
   }
 

@@ -57,11 +57,9 @@ std::map<std::string, double> terms_of(const Engine<Real>& engine, const Geometr
   const auto tests = static_cast<double>(work.object_tests);
 
   std::map<std::string, double> terms{{"ray", 1},
+                                      {"object_test", per_ray(tests)},
                                       {"volume_test", per_ray(static_cast<double>(work.volume_tests))},
-                                      {"step", per_ray(static_cast<double>(work.steps))},
-                                      {"cell", per_ray(static_cast<double>(work.cells))},
-                                      {"empty_cell", per_ray(static_cast<double>(work.empty_cells))},
-                                      {"mailbox_hit", per_ray(static_cast<double>(work.mailbox_hits))}};
+                                      {"step", per_ray(static_cast<double>(work.steps))}};
   // Which kinds are tested again is not counted: tests have the kinds of their distinct objects.
   const Kinds kinds = kinds_of(engine, geometry, sample, *scratch);
   const double repeated = kinds.all() > 0 ? tests / kinds.all() : 0;
@@ -72,7 +70,6 @@ std::map<std::string, double> terms_of(const Engine<Real>& engine, const Geometr
 
   const double far = far_part(static_cast<double>(engine.structure().bytes + geometry.bytes()));
   terms["far_test"] = far * per_ray(tests);
-  terms["far_step"] = far * per_ray(static_cast<double>(work.steps + work.volume_tests));
   std::erase_if(terms, [](const auto& term) { return term.second == 0; });
   return terms;
 }

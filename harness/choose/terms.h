@@ -12,9 +12,9 @@ namespace rayshoot {
 /// object is expected outside of the second cache.
 inline constexpr std::array kObjectTerms = {"triangle_test", "polygon_test", "polygon_vertex",
                                             "sphere_test",   "cone_test",    "far_test"};
-/// The others, of which each technique has constants of its own. `ray` is 1, for what every ray costs.
-inline constexpr std::array kTechniqueTerms = {"ray",        "volume_test", "step",    "cell",
-                                               "empty_cell", "mailbox_hit", "far_step"};
+/// The others, of which each technique has constants of its own. `ray` is 1, for what every ray costs; `object_test` is what
+/// a test costs beyond its kind, where objects are met in no order.
+inline constexpr std::array kTechniqueTerms = {"ray", "object_test", "volume_test", "step"};
 
 /// What an engine does for a ray of the sample, by terms; those that are zero are left out.
 template <class Real>

@@ -271,6 +271,7 @@ void members(T& choice, Visitor& visitor) {
   visitor.required("sample_rays", choice.sample_rays);
   visitor.required("candidates", choice.candidates);
   visitor.required("constants", choice.constants);
+  visitor.required("fitted", choice.fitted);
   visitor.optional("expected_rays", choice.expected_rays);
   visitor.required("predicted", choice.predicted);
   visitor.required("pick", choice.pick);

@@ -246,7 +246,7 @@ struct Candidate {
   std::string spec;
   std::string technique;
   std::map<std::string, ConfigValue> config;
-  /// Per ray, by the names of the terms of the cost: "triangle_test", "step", "far_step" and so on.
+  /// Per ray, by the names of the terms of the cost: "triangle_test", "step" and so on.
   std::map<std::string, double> counts;
   double build_ns = 0;
   /// Absent where no constants are known for the technique.
@@ -266,8 +266,9 @@ struct Choice {
   std::uint64_t sample_rays = 0;
   /// The cheapest by prediction first.
   std::vector<Candidate> candidates;
-  /// Where and when the constants of the prediction were measured.
+  /// Where and when the constants of the prediction were measured, and whether this scene was among those.
   std::string constants;
+  bool fitted = false;
   /// Rays that the build is to serve, where its time counts.
   std::optional<double> expected_rays;
   /// Specifications of the cheapest by prediction and of what was chosen, and the reason in words.

@@ -119,6 +119,7 @@ inline report::Report full_report() {
                                      .predicted_ns_per_ray = 101,
                                      .race_ns_per_ray = {99, 103.5}}},
                      .constants = "a processor, a day",
+                     .fitted = true,
                      .expected_rays = 1e6,
                      .predicted = "uniform_grid(density=0.1)",
                      .pick = "uniform_grid(density=0.1)",
