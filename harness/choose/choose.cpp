@@ -7,8 +7,8 @@
 #include <cmath>
 #include <thread>
 
-#include "accel/algebra/expression.h"
 #include "analysis/statistics/sample.h"
+#include "harness/choose/candidates.h"
 #include "harness/choose/prune.h"
 #include "harness/choose/race.h"
 #include "harness/choose/sample.h"
@@ -28,34 +28,6 @@ constexpr std::size_t kCountedRays = 2000, kRacedRays = 16'384, kNeighbours = 64
 /// Candidates whose expected cost is at most this many times the least are near ties; so many of them race.
 constexpr double kNearTie = 1.6;
 constexpr std::size_t kMostInRace = 6;
-
-/// What there is to choose among, and whether it was named by the user: then nothing is left out for its looks.
-struct Field {
-  std::vector<TechniqueChoice> candidates;
-  bool named = false;
-};
-
-void add_known(std::vector<TechniqueChoice>& candidates, const Constants& constants) {
-  for (const TechniqueEntry* entry : catalogue())
-    if (!entry->info.baseline) candidates.push_back(choose_technique(entry->info.id));
-  for (const auto& [technique, known] : constants.techniques)
-    if (is_composition(technique)) candidates.push_back(choose_technique(technique));
-}
-
-Field field_of(const ChooserOptions& options, const Constants& constants) {
-  Field field{.named = !options.candidates.empty()};
-  if (!field.named) add_known(field.candidates, constants);
-  for (const std::string& spec : options.candidates) {
-    if (spec == "all") {
-      add_known(field.candidates, constants);
-      continue;
-    }
-    field.candidates.push_back(choose_technique(spec));
-    if (field.candidates.back().entry->info.baseline)
-      throw InputError(fmt::format("'{}' is a point of comparison, not a technique to choose", spec));
-  }
-  return field;
-}
 
 /// A combination of scene, rays, scalar and intersector for which a technique is wanted.
 struct Question {
@@ -79,10 +51,10 @@ struct Weighed {
 template <class Real>
 class Chooser {
  public:
-  Chooser(const Question& question, const Field& field, const ChooserOptions& options,
+  Chooser(const Question& question, const Candidates& candidates, const ChooserOptions& options,
           const Constants& constants, const std::function<bool()>& stopped)
       : question_(question),
-        field_(field),
+        candidates_(candidates),
         options_(options),
         constants_(constants),
         stopped_(stopped),
@@ -125,7 +97,7 @@ class Chooser {
     const std::string why =
         why_left_out(question_.plan.suite, {question_.scene, question_.spec, question_.rays.rays.size(),
                                             candidate, question_.scalar, question_.intersector});
-    return why.empty() && !field_.named ? why_not_weighed(candidate, statistics_, constants_) : why;
+    return why.empty() && !candidates_.named ? why_not_weighed(candidate, statistics_, constants_) : why;
   }
 
   /// Leave out what the scene does not need, build the others and count what they do for a few rays.
@@ -135,7 +107,7 @@ class Chooser {
     const std::vector<Ray<Real>> rays = sampled<Real>({&question_.rays});
     const RaySample<Real> shown{rays, static_cast<double>(question_.rays.rays.size()) /
                                           std::max(1.0, static_cast<double>(rays.size()))};
-    for (const TechniqueChoice& candidate : field_.candidates) {
+    for (const TechniqueChoice& candidate : candidates_.techniques) {
       if (stopped_()) return;
       std::string why = objection(candidate);
       if (why.empty()) why = weigh(candidate, sample, shown);
@@ -236,7 +208,7 @@ class Chooser {
   }
 
   const Question& question_;
-  const Field& field_;
+  const Candidates& candidates_;
   const ChooserOptions& options_;
   const Constants& constants_;
   const std::function<bool()>& stopped_;
@@ -246,11 +218,11 @@ class Chooser {
   std::vector<Weighed<Real>> weighed_;
 };
 
-report::Choice answer(const Question& question, const Field& field, const ChooserOptions& options,
+report::Choice answer(const Question& question, const Candidates& candidates, const ChooserOptions& options,
                       const Constants& constants, const std::function<bool()>& stopped) {
   if (question.scalar == "float")
-    return Chooser<float>(question, field, options, constants, stopped).choose();
-  return Chooser<double>(question, field, options, constants, stopped).choose();
+    return Chooser<float>(question, candidates, options, constants, stopped).choose();
+  return Chooser<double>(question, candidates, options, constants, stopped).choose();
 }
 
 }  // namespace
@@ -259,7 +231,7 @@ std::vector<report::Choice> choose_techniques(const Plan& plan, const ChooserOpt
                                               const Constants& constants, RunObserver& observer,
                                               const std::function<bool()>& stopped) {
   const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const Field field = field_of(options, constants);
+  const Candidates candidates = candidates_of(options.candidates, constants);
   std::vector<report::Choice> choices;
   for (const std::string& id : plan.suite.scenes) {
     observer.doing("loading " + id);
@@ -274,7 +246,7 @@ std::vector<report::Choice> choose_techniques(const Plan& plan, const ChooserOpt
           if (stopped()) return choices;
           observer.doing(fmt::format("{} {}: choosing", id, spec.id));
           report::Choice choice =
-              answer({plan, scene, spec, rays, scalar, intersector}, field, options, constants, stopped);
+              answer({plan, scene, spec, rays, scalar, intersector}, candidates, options, constants, stopped);
           if (!stopped()) choices.push_back(std::move(choice));
           observer.finished(1);
         }

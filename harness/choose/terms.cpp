@@ -9,10 +9,13 @@ namespace {
 /// The second cache of the machine that the constants were fitted on.
 constexpr double kNearBytes = 1 << 20;
 
+/// The kinds of about so many candidates are looked up.
+constexpr std::uint64_t kMostCandidates = 1'000'000;
+
 /// The part of equally likely accesses to so many bytes that misses a cache.
 double far_part(double bytes) { return bytes > kNearBytes ? 1 - kNearBytes / bytes : 0; }
 
-/// Candidates by kind of object, and vertices of polygons among them, over all rays.
+/// Candidates by kind of object, and vertices of polygons among them.
 struct Kinds {
   std::array<double, kObjectKindNames.size()> objects{};
   double vertices = 0;
@@ -29,9 +32,9 @@ void add(Kinds& kinds, const Geometry<Real>& geometry, std::uint32_t object) {
 
 template <class Real>
 Kinds kinds_of(const Engine<Real>& engine, const Geometry<Real>& geometry, const Batch<Real>& sample,
-               EngineScratch& scratch) {
+               std::size_t stride, EngineScratch& scratch) {
   Kinds kinds;
-  for (std::size_t i = 0; i < sample.rays.size(); ++i) {
+  for (std::size_t i = 0; i < sample.rays.size(); i += stride) {
     const Query query = i < sample.closest_rays ? Query::closest : Query::any;
     for (const std::uint32_t object : engine.candidates(query, sample.rays[i], scratch))
       add(kinds, geometry, object);
@@ -60,8 +63,8 @@ std::map<std::string, double> terms_of(const Engine<Real>& engine, const Geometr
                                       {"object_test", per_ray(tests)},
                                       {"volume_test", per_ray(static_cast<double>(work.volume_tests))},
                                       {"step", per_ray(static_cast<double>(work.steps))}};
-  // Which kinds are tested again is not counted: tests have the kinds of their distinct objects.
-  const Kinds kinds = kinds_of(engine, geometry, sample, *scratch);
+  // Tests are taken to be of kinds in the shares that candidates have, each looked up once a ray.
+  const Kinds kinds = kinds_of(engine, geometry, sample, 1 + work.object_tests / kMostCandidates, *scratch);
   const double repeated = kinds.all() > 0 ? tests / kinds.all() : 0;
   const std::array names = {"triangle_test", "polygon_test", "sphere_test", "cone_test"};
   for (std::size_t kind = 0; kind < names.size(); ++kind)

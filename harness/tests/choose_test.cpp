@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "accel/core/registry.h"
+#include "harness/choose/candidates.h"
 #include "harness/choose/fit.h"
 #include "harness/choose/prune.h"
 #include "harness/choose/sample.h"
@@ -211,6 +213,16 @@ TEST_F(ChooseTest, NamedCandidatesAreNotLeftOutForTheirLooks) {
   EXPECT_THAT(choice.left_out, IsEmpty());
   EXPECT_THAT(choice.candidates, SizeIs(2));
   EXPECT_EQ(choice.pick, "uniform_grid(density=2)");
+}
+
+TEST_F(ChooseTest, NamesEachCandidateOnce) {
+  options_.candidates = {"bvh_sah", "all", "bvh_sah"};
+  std::vector<std::string> specs;
+  for (const TechniqueChoice& candidate : candidates_of(options_.candidates, constants_).techniques)
+    specs.push_back(candidate.spec);
+  EXPECT_EQ(std::count(specs.begin(), specs.end(), "bvh_sah"), 1);
+  EXPECT_THAT(specs, IsSupersetOf({"exhaustive", "kd_tree", "uniform_grid(density=0.1)|kd_tree"}));
+  EXPECT_EQ(std::count(specs.begin(), specs.end(), "embree"), 0);
 }
 
 TEST_F(ChooseTest, RefusesWhatCannotBeChosen) {
