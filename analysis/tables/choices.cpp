@@ -61,6 +61,12 @@ std::string verdict(const JudgedChoice& judged) {
   return text;
 }
 
+/// Nothing where builds do not count.
+std::optional<double> expected_cost(const report::Choice& choice, const report::Candidate& candidate) {
+  if (!choice.expected_rays || !candidate.predicted_ns_per_ray) return std::nullopt;
+  return *candidate.predicted_ns_per_ray + candidate.build_ns / *choice.expected_rays;
+}
+
 Table weighing(const JudgedChoice& judged, bool several_reports) {
   const report::Choice& choice = *judged.choice;
   const std::string run = several_reports ? fmt::format("[{}] ", judged.report->run.id) : "";
@@ -69,16 +75,19 @@ Table weighing(const JudgedChoice& judged, bool several_reports) {
   Table table{
       .title = fmt::format("{}{}, {}, {}: what to choose{}", run, choice.scene, rays_of(choice),
                            precision_of(choice), builds),
-      .columns = {{"candidate", "candidate", "", "", Style::text},
-                  {"expected_ns_per_ray", "expected", "ns/ray", "counts on a sample times fitted constants"},
-                  {"race_ns_per_ray", "race", "ns/ray", "median of short times in turns, of near ties"},
-                  {"measured_ns_per_ray", "measured", "ns/ray", "in this run"},
-                  {"built_in_ms", "built in", "ms", "once, while choosing"}}};
+      .columns = {
+          {"candidate", "candidate", "", "", Style::text},
+          {"expected_ns_per_ray", "expected", "ns/ray", "counts on a sample times fitted constants"},
+          {"race_ns_per_ray", "race", "ns/ray", "median of short times in turns, of near ties"},
+          {"expected_cost_ns_per_ray", "with build", "ns/ray", "expected, and its share of the build"},
+          {"measured_ns_per_ray", "measured", "ns/ray", "in this run, with the build where builds count"},
+          {"built_in_ms", "built in", "ms", "once, while choosing"}}};
   for (const report::Candidate& candidate : choice.candidates) {
     const auto race = median(candidate.race_ns_per_ray);
     table.rows.push_back({words(candidate.spec),
                           {candidate.predicted_ns_per_ray, ""},
                           {race ? std::optional(race->value) : std::nullopt, ""},
+                          {expected_cost(choice, candidate), ""},
                           {judged.cost(candidate.spec), ""},
                           {candidate.build_ns / 1e6, ""}});
   }

@@ -92,6 +92,13 @@ TEST(Choices, AreExplained) {
                        "which is that of bvh_sah."));
 }
 
+TEST(Choices, SayWhatABuildAdds) {
+  report::Report report = report_with_choice("bvh_sah");
+  EXPECT_FALSE(find_cell(choice_tables({report})[0], "bvh_sah", "expected_cost_ns_per_ray").number);
+  report.choices[0].expected_rays = 10'000;  // builds took 1 ms
+  EXPECT_EQ(number_in(choice_tables({report})[0], "bvh_sah", "expected_cost_ns_per_ray"), 200);
+}
+
 TEST(Choices, AreCountedOverReports) {
   report::Report good = report_with_choice("bvh_sah"), bad = report_with_choice("uniform_grid");
   good.choices[0].fitted = true;
