@@ -141,6 +141,7 @@ std::string render_comparison(const std::vector<report::Report>& reports, Format
   }
   append(published_tables(reports));
   append(grading_tables(reports, format == Format::csv));
+  append(choice_tables(reports));
   return render(tables, format);
 }
 

@@ -21,6 +21,13 @@ std::vector<Table> scaling_tables(const std::vector<report::Report>& reports);
 /// For each group with published figures, these beside ours; what was published of times, and whether ours agree.
 std::vector<Table> published_tables(const std::vector<report::Report>& reports);
 
+/// For each technique that the program chose, what it weighed and why it chose so; then what all choices cost beside what
+/// could have been chosen, where that was measured.
+std::vector<Table> choice_tables(const std::vector<report::Report>& reports);
+
+/// Of these the last alone; empty where no choice was measured beside the other candidates.
+std::string render_regret(const std::vector<report::Report>& reports, Format format);
+
 /// All of these; in CSV the comparison alone, whose rows have everything.
 std::string render_comparison(const std::vector<report::Report>& reports, Format format);
 

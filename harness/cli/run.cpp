@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "analysis/tables/comparison.h"
+#include "harness/choose/choose.h"
 #include "harness/cli/commands.h"
 #include "harness/cli/long_run.h"
 #include "harness/cli/progress.h"
@@ -32,6 +33,10 @@ struct Options {
   std::optional<std::string> shard;
   bool resume = false;
   std::string output;
+  /// Of `run auto`, and of what is chosen.
+  std::vector<std::string> scenes_of_auto, candidates;
+  bool regret = false, no_race = false;
+  std::optional<double> expected_rays;
 };
 
 template <class Value>
@@ -59,6 +64,43 @@ Suite suite_of(const Options& options) {
   return suite;
 }
 
+/// `run auto SCENE...` is short for the scenes, the technique that is chosen for each, and the baselines.
+Options expanded(Options options) {
+  if (options.suite != kAuto) {
+    if (options.scenes_of_auto.empty()) return options;
+    throw InputError(
+        fmt::format("'{}' is one argument too many for rayshoot run", options.scenes_of_auto.front()));
+  }
+  options.suite.clear();
+  options.scenes.insert(options.scenes.end(), options.scenes_of_auto.begin(), options.scenes_of_auto.end());
+  if (options.scenes.empty())
+    throw InputError("run auto: which scenes? Give them as in: run auto balls:4 tree:8");
+  if (options.techniques.empty()) options.techniques = {"baselines"};
+  options.techniques.emplace_back(kAuto);
+  return options;
+}
+
+/// Whether a technique is to be chosen; the suite is left with its other techniques.
+bool take_auto(Suite& suite, const Options& options) {
+  const bool automatic = std::erase(suite.techniques, kAuto) > 0;
+  if (!automatic &&
+      (!options.candidates.empty() || options.regret || options.no_race || options.expected_rays))
+    throw InputError(
+        "--candidate, --regret, --no-race and --expected-rays go with run auto, or --technique auto");
+  return automatic;
+}
+
+/// Choose techniques and add them to the plan.
+std::vector<report::Choice> choose(Plan& plan, const Options& options) {
+  const ChooserOptions chooser{options.candidates, !options.no_race && !plan.suite.counts_only,
+                               options.expected_rays};
+  Progress progress(plan.suite.scenes.size() * plan.rays.size() * plan.suite.scalars.size() *
+                    plan.suite.intersectors.size());
+  const auto choices = choose_techniques(plan, chooser, builtin_constants(), progress, interrupted);
+  plan_choices(plan, choices, options.regret);
+  return choices;
+}
+
 bool any_failure(const report::Report& report) {
   return std::any_of(report.measurements.begin(), report.measurements.end(), [](const auto& measurement) {
     return measurement.verdict.status == report::Status::wrong ||
@@ -66,8 +108,13 @@ bool any_failure(const report::Report& report) {
   });
 }
 
-int run_command(const Options& options, const std::string& command_line) {
-  Plan plan = make_plan(suite_of(options));
+int run_command(const Options& given, const std::string& command_line) {
+  const Options options = expanded(given);
+  Suite suite = suite_of(options);
+  const bool automatic = take_auto(suite, options);
+  if (automatic && options.resume)
+    throw InputError("--resume does not go with run auto: what is chosen may differ from what was");
+  Plan plan = make_plan(std::move(suite));
   if (options.shard) keep_shard(plan, parse_shard(*options.shard));
   const report::Run started = started_run(command_line, plan.suite.seed);
   const std::string output = report_path(options.output, started.id);
@@ -77,11 +124,14 @@ int run_command(const Options& options, const std::string& command_line) {
   if (earlier) skip_done(plan, *earlier);
 
   stop_on_interrupt();
+  std::vector<report::Choice> choices;
+  if (automatic) choices = choose(plan, options);
   report::Report report;
   {
     Progress progress(plan.cells());
     Checkpoints checkpoints(progress, options.output, earlier);
     report = continued(earlier, run(plan, started, checkpoints, interrupted));
+    report.choices = std::move(choices);
     // Written while the checkpoint is still there.
     report::write_report(report, output);
   }
@@ -96,9 +146,12 @@ void add_run(CLI::App& program, const std::string& command_line, int& status) {
   auto* command = program.add_subcommand("run", "Run a suite, write a report and print its tables");
   const auto options = std::make_shared<Options>();
   command->add_option("SUITE", options->suite,
-                      fmt::format("A suite file, or one of {}", fmt::join(builtin_suites(), ", ")));
+                      fmt::format("A suite file, one of {}, or auto: choose a technique for each SCENE",
+                                  fmt::join(builtin_suites(), ", ")));
+  command->add_option("SCENE", options->scenes_of_auto, "Scenes of run auto");
   repeatable(command->add_option("--scene", options->scenes, "Scenes in place of the suite's"));
-  repeatable(command->add_option("--technique", options->techniques, "Techniques in place of the suite's"));
+  repeatable(command->add_option("--technique", options->techniques,
+                                 "Techniques in place of the suite's; auto for the one that is chosen"));
   repeatable(command->add_option("--rays", options->rays, "Ray distributions in place of the suite's"));
   repeatable(command->add_option("--scalar", options->scalars, "float or double; may be given twice"));
   repeatable(
@@ -128,6 +181,16 @@ void add_run(CLI::App& program, const std::string& command_line, int& status) {
           "--resume", options->resume,
           "Go on where the same command was killed or interrupted: scenes that are done stay as they are")
       ->needs(output);
+  repeatable(
+      command->add_option("--candidate", options->candidates,
+                          "What auto chooses among, in place of what the scene does not rule out; all"));
+  command->add_flag("--regret", options->regret,
+                    "Measure all candidates, and say how much was lost by the choice");
+  command->add_flag("--no-race", options->no_race, "Choose by prediction alone");
+  command
+      ->add_option("--expected-rays", options->expected_rays,
+                   "Rays that a build is to serve: its time is then part of what auto minimises")
+      ->check(CLI::Range(1.0, 1e15));
   command->callback([options, command_line, &status] { status = run_command(*options, command_line); });
 }
 

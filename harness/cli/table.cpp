@@ -16,6 +16,7 @@ struct Options {
   std::vector<std::string> reports;
   std::string format = "text";
   analysis::PivotOptions pivot;
+  bool regret = false;
 };
 
 /// Options that choose what is shown; each one asks for tables of one's own.
@@ -52,6 +53,9 @@ void add_table(CLI::App& program) {
   command->add_option("REPORT", options->reports, "Reports, as `run` writes them")->required();
   add_format(*command, options->format);
   const std::vector<CLI::Option*> choices = add_choices(*command, options->pivot);
+  auto* regret = command->add_flag("--regret", options->regret,
+                                   "Only what the choices of run auto cost beside the best");
+  for (CLI::Option* choice : choices) regret->excludes(choice);
   command->callback([options, choices] {
     require_known("metric", options->pivot.metrics, analysis::metric_keys());
     std::vector<report::Report> reports;
@@ -59,8 +63,13 @@ void add_table(CLI::App& program) {
     const analysis::Format format = analysis::kFormats.at(options->format);
     const bool own =
         std::any_of(choices.begin(), choices.end(), [](const CLI::Option* o) { return o->count() > 0; });
-    fmt::print("{}", own ? analysis::render(analysis::pivot_tables(reports, options->pivot), format)
-                         : analysis::render_comparison(reports, format));
+    const std::string tables = options->regret ? analysis::render_regret(reports, format)
+                               : own
+                                   ? analysis::render(analysis::pivot_tables(reports, options->pivot), format)
+                                   : analysis::render_comparison(reports, format);
+    if (options->regret && tables.empty())
+      throw InputError("no choice was measured beside its candidates; run auto with --regret does that");
+    fmt::print("{}", tables);
   });
 }
 

@@ -46,6 +46,7 @@ Report joined(const std::vector<Report>& reports) {
     append(whole.left_out, part.left_out);
     append(whole.claims, part.claims);
     append(whole.gradings, part.gradings);
+    append(whole.choices, part.choices);
   }
   return whole;
 }

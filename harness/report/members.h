@@ -249,6 +249,36 @@ void members(T& cell, Visitor& visitor) {
   visitor.required("why", cell.why);
 }
 
+template <Some<Candidate> T, class Visitor>
+void members(T& candidate, Visitor& visitor) {
+  visitor.required("spec", candidate.spec);
+  visitor.required("technique", candidate.technique);
+  visitor.required("config", candidate.config);
+  visitor.required("counts", candidate.counts);
+  visitor.required("build_ns", candidate.build_ns);
+  visitor.optional("predicted_ns_per_ray", candidate.predicted_ns_per_ray);
+  visitor.optional("race_ns_per_ray", candidate.race_ns_per_ray);
+}
+
+template <Some<Choice> T, class Visitor>
+void members(T& choice, Visitor& visitor) {
+  visitor.required("scene", choice.scene);
+  visitor.required("rays", choice.rays);
+  visitor.choice("scalar", choice.scalar, kScalarNames);
+  visitor.optional_choice("intersector", choice.intersector, kIntersectorNames);
+  visitor.required("statistics", choice.statistics);
+  visitor.required("left_out", choice.left_out);
+  visitor.required("sample_rays", choice.sample_rays);
+  visitor.required("candidates", choice.candidates);
+  visitor.required("constants", choice.constants);
+  visitor.required("fitted", choice.fitted);
+  visitor.optional("expected_rays", choice.expected_rays);
+  visitor.required("predicted", choice.predicted);
+  visitor.required("pick", choice.pick);
+  visitor.required("why", choice.why);
+  visitor.required("seconds", choice.seconds);
+}
+
 template <Some<Report> T, class Visitor>
 void members(T& report, Visitor& visitor) {
   visitor.required("run", report.run);
@@ -259,6 +289,7 @@ void members(T& report, Visitor& visitor) {
   visitor.required("left_out", report.left_out);
   visitor.optional("claims", report.claims);
   visitor.optional("gradings", report.gradings);
+  visitor.optional("choices", report.choices);
 }
 
 }  // namespace rayshoot::report

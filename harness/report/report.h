@@ -240,6 +240,43 @@ struct Grading {
   std::optional<std::string> message;
 };
 
+/// A technique that the chooser weighed: what it does for a ray of the sample, and what that is expected to cost.
+struct Candidate {
+  /// Specification that was asked for, and what measurements call it.
+  std::string spec;
+  std::string technique;
+  std::map<std::string, ConfigValue> config;
+  /// Per ray, by the names of the terms of the cost: "triangle_test", "step" and so on.
+  std::map<std::string, double> counts;
+  double build_ns = 0;
+  /// Absent where no constants are known for the technique.
+  std::optional<double> predicted_ns_per_ray;
+  /// Nanoseconds a ray, one entry a round, where it was in the race between near ties.
+  std::vector<double> race_ns_per_ray;
+};
+
+/// Which technique was chosen for rays in a scene, out of which, and why.
+struct Choice {
+  std::string scene, rays, scalar;
+  std::string intersector = "fast";
+  /// Cheap statistics of the scene, by name.
+  std::map<std::string, double> statistics;
+  /// Candidates that were left out before anything was built.
+  std::vector<LeftOut> left_out;
+  std::uint64_t sample_rays = 0;
+  /// The cheapest by prediction first.
+  std::vector<Candidate> candidates;
+  /// Where and when the constants of the prediction were measured, and whether this scene was among those.
+  std::string constants;
+  bool fitted = false;
+  /// Rays that the build is to serve, where its time counts.
+  std::optional<double> expected_rays;
+  /// Specifications of the cheapest by prediction and of what was chosen, and the reason in words.
+  std::string predicted, pick, why;
+  /// What choosing took.
+  double seconds = 0;
+};
+
 /// A cell that was planned and not run; `technique` is the specification that was asked for.
 struct LeftOutCell {
   std::string scene, rays, technique, scalar;
@@ -258,6 +295,8 @@ struct Report {
   std::vector<Claim> claims;
   /// What `rayshoot torture` found out.
   std::vector<Grading> gradings;
+  /// Techniques that the program was left to choose.
+  std::vector<Choice> choices;
 };
 
 /// Thrown when a file is not a report or cannot be read or written; `what()` is one line.

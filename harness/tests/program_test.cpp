@@ -203,6 +203,37 @@ TEST(Validate, ChecksTheLawsOfTheAlgebra) {
   EXPECT_THAT(laws.output, Not(HasSubstr("FAILS")));
 }
 
+TEST(Auto, ChoosesExplainsAndMeasuresTheChoice) {
+  const TemporaryFolder folder;
+  const Outcome run = run_program({"run", "auto", "tetra:4", "balls:2", "--rays", "chords(rays=200)",
+                                   "--no-race", "--counts-only", "-o", "r.json"},
+                                  folder.path());
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("Chosen: "));
+  EXPECT_THAT(run.output, HasSubstr("it tests every ray with each of 256 objects"));
+  const report::Report report = report::read_report((folder.path() / "r.json").string());
+  ASSERT_EQ(report.choices.size(), 2u);
+  for (const report::Choice& choice : report.choices) {
+    std::set<std::string> measured;
+    for (const report::Measurement& measurement : report.measurements)
+      if (measurement.scene == choice.scene) measured.insert(measurement.technique);
+    EXPECT_THAT(measured, IsSupersetOf({choice.candidates.at(0).technique, std::string("embree")}));
+    EXPECT_EQ(choice.pick, choice.candidates.at(0).spec);
+  }
+}
+
+TEST(Auto, WithRegretMeasuresEveryCandidate) {
+  const TemporaryFolder folder;
+  const Outcome run = run_program(
+      {"run", "--scene", "tetra:3", "--rays", "chords(rays=200)", "--technique", "auto", "--candidate",
+       "bvh_sah", "--candidate", "uniform_grid(density=2)", "--regret", "-o", "r.json"},
+      folder.path());
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("Chosen: "));
+  const report::Report report = report::read_report((folder.path() / "r.json").string());
+  EXPECT_EQ(report.measurements.size(), 2u);
+}
+
 TEST(Interrupt, EndsARunWithAReportOfWhatWasDone) {
   const TemporaryFolder folder;
   const Outcome outcome = interrupt_program(kLongRun, " of 8 cells", folder.path());

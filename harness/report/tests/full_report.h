@@ -104,6 +104,27 @@ inline report::Report full_report() {
        .work = report::Work{30, 120, 100, 60, 90, 80, 20, 10},
        .most_steps = 17,
        .message = "given up after 20 crashes"}};
+  report.choices = {{.scene = "balls:2/curves",
+                     .rays = "balls:2/curves/whitted@3",
+                     .scalar = "double",
+                     .intersector = "watertight",
+                     .statistics = {{"objects", 92}, {"crowding", 3.5}},
+                     .left_out = {{"exhaustive", "92 objects"}},
+                     .sample_rays = 30,
+                     .candidates = {{.spec = "uniform_grid(density=0.1)",
+                                     .technique = "uniform_grid",
+                                     .config = {{"density", 0.1}},
+                                     .counts = {{"sphere_test", 4}, {"step", 3}},
+                                     .build_ns = 1000,
+                                     .predicted_ns_per_ray = 101,
+                                     .race_ns_per_ray = {99, 103.5}}},
+                     .constants = "a processor, a day",
+                     .fitted = true,
+                     .expected_rays = 1e6,
+                     .predicted = "uniform_grid(density=0.1)",
+                     .pick = "uniform_grid(density=0.1)",
+                     .why = "nothing else was weighed",
+                     .seconds = 0.25}};
   return report;
 }
 

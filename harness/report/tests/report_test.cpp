@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "full_report.h"
+#include "harness/report/join.h"
 
 namespace rayshoot::report {
 namespace {
@@ -212,6 +213,32 @@ TEST(Report, NamesTheFileItCannotRead) {
     } catch (const ReportError& error) {
       EXPECT_THAT(error.what(), testing::StartsWith((folder / name) + ": "));
     }
+}
+
+TEST(Join, PutsRunsOfOtherScenesTogether) {
+  const Report first = test::full_report();
+  Report second = first;
+  second.run.id = "another", second.scenes[0].id = "gears:1", second.run.complete = true;
+  const Report whole = joined({first, second});
+  EXPECT_EQ(whole.run.id, first.run.id);
+  EXPECT_EQ(whole.run.seconds, 2 * first.run.seconds);
+  EXPECT_FALSE(whole.run.complete);
+  EXPECT_EQ(whole.scenes.size(), 2u);
+  EXPECT_EQ(whole.ray_sets.size(), 2u);
+  EXPECT_EQ(whole.measurements.size(), 2u);
+  EXPECT_EQ(whole.left_out.size(), 2u);
+  EXPECT_EQ(whole.claims.size(), 2u);
+  EXPECT_EQ(whole.gradings.size(), 2u);
+  EXPECT_EQ(whole.choices.size(), 2u);
+}
+
+TEST(Join, RefusesRunsThatDoNotCompare) {
+  const Report first = test::full_report();
+  EXPECT_THROW(joined({}), ReportError);
+  EXPECT_THROW(joined({first, first}), ReportError) << "a scene twice";
+  Report second = first;
+  second.scenes[0].id = "gears:1", second.environment.cpu = "another";
+  EXPECT_THROW(joined({first, second}), ReportError);
 }
 
 }  // namespace

@@ -90,7 +90,9 @@ TEST(Schema, HasTheMembersOfTheCode) {
                                                    {"ulps", cell["errors"]["ulps_of_t"]},
                                                    {"published_figure", cell["published"][0]},
                                                    {"claim", report["claims"][0]},
-                                                   {"grading", report["gradings"][0]}};
+                                                   {"grading", report["gradings"][0]},
+                                                   {"choice", report["choices"][0]},
+                                                   {"candidate", report["choices"][0]["candidates"][0]}};
   EXPECT_EQ(std::size(examples), schema["definitions"].size());
   for (const auto& [name, object] : examples) {
     const json& definition = schema["definitions"][name];
