@@ -68,7 +68,7 @@ SceneStatistics statistics_of(const Geometry<Real>& geometry) {
     const Box<Real> around = geometry.bounds(object);
     centres.push_back((Vec3d(around.lo) + Vec3d(around.hi)) * 0.5);
   }
-  return {geometry.size(), crowding_of(centres, box), spread_of(centres, box)};
+  return {geometry.numbers(), crowding_of(centres, box), spread_of(centres, box)};
 }
 
 template SceneStatistics statistics_of(const Geometry<float>&);
