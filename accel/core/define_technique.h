@@ -25,8 +25,8 @@ concept TestsObjects = requires(const A a, const typename A::Scratch& scratch) {
 /// they serve: the answers are those of `visit`.
 template <class A>
 concept HasKernels = requires(const A a, const Geometry<typename A::Scalar>& arranged,
-                              std::span<const Ray<typename A::Scalar>> rays, std::span<Hit<typename A::Scalar>> hits,
-                              std::span<std::uint8_t> blocked) {
+                              std::span<const Ray<typename A::Scalar>> rays,
+                              std::span<Hit<typename A::Scalar>> hits, std::span<std::uint8_t> blocked) {
   { a.kernels_serve(arranged) } -> std::same_as<bool>;
   {a.kernel_closest(arranged, rays, hits)};
   {a.kernel_any(arranged, rays, blocked)};

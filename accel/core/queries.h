@@ -48,8 +48,7 @@ struct Naming {
 template <class L>
 inline constexpr bool kSeeksAnyHit = false;
 template <class L>
-requires L::kAnyHit
-inline constexpr bool kSeeksAnyHit<L> = true;
+requires L::kAnyHit inline constexpr bool kSeeksAnyHit<L> = true;
 
 /// Leaf of the closest-hit query: keeps the nearest hit, of equal distances the lowest object.
 template <class Real, class Test>
