@@ -109,22 +109,23 @@ class BvhWide {
   }
 
   /// Its leaves are the cells of a composition.
+  void prepare_cells() {
+    positions_.resize(order_.size());
+    std::iota(positions_.begin(), positions_.end(), 0u);
+  }
   const BvhWide& cells(Scratch&) const { return *this; }
   template <class Counter, class Reach, class Visit>
   void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
     if (tree_.empty() || !can_hit(ray)) return;
     const WideCrossings<WideAvx2, Real> crossings{PreparedRay(ray)};
     walk_wide<WideAvx2>(tree_, crossings, count, reach, WideCoherent<WideAvx2>{}, [&](WideChild leaf) {
-      return visit(std::span(order_).subspan(leaf.first(), leaf.count()));
+      return visit(std::span(positions_).subspan(leaf.first(), leaf.count()));
     });
   }
   template <class Visit>
   void for_each_cell(const Visit& visit) const {
-    std::vector<std::uint32_t> positions;
     tree_.for_each_leaf([&](const Box<Real>& box, WideChild leaf) {
-      positions.resize(leaf.count());
-      std::iota(positions.begin(), positions.end(), leaf.first());
-      visit(box, &order_[leaf.first()], positions);
+      visit(box, &positions_[leaf.first()], std::span(positions_).subspan(leaf.first(), leaf.count()));
     });
   }
 
@@ -196,6 +197,8 @@ class BvhWide {
   WideTree<Real> tree_;
   WideTriangles triangles_;
   std::vector<std::uint32_t> order_;
+  /// All positions in turn, in a composition alone.
+  std::vector<std::uint32_t> positions_;
   const WideKernels* kernels_ = &kWideKernelsAvx2;
 };
 

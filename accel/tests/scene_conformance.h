@@ -57,7 +57,7 @@ void check_sets(std::span<const TechniqueEntry* const> entries, const Geometry<R
   }
   const auto expected = truths<Real>(geometry, rays);
   for (const TechniqueEntry* entry : entries) {
-    if (!entry->supports<Real>()) continue;
+    if (!entry->supports<Real>() || (geometry.has_placed() && !entry->searches_parts())) continue;
     std::vector<Variant> of_entry = variants(*entry);
     // What goes through all objects takes its time: where they are many, one configuration does.
     if (entry->info.max_practical_objects < UINT64_MAX && geometry.numbers() > kSmallScene) of_entry.resize(1);
