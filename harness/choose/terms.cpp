@@ -1,6 +1,7 @@
 #include "harness/choose/terms.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace rayshoot {
 
@@ -23,8 +24,14 @@ struct Kinds {
   double all() const { return objects[0] + objects[1] + objects[2] + objects[3]; }
 };
 
+/// Add the object of that number, in whatever part it is.
 template <class Real>
-void add(Kinds& kinds, const Geometry<Real>& geometry, std::uint32_t object) {
+void add(Kinds& kinds, const Geometry<Real>& geometry, std::uint32_t number) {
+  const auto first_number = [&](std::uint32_t object) { return geometry.first_number(object); };
+  const auto objects = std::views::iota(0u, geometry.size());
+  const std::uint32_t object = *(std::ranges::upper_bound(objects, number, {}, first_number) - 1);
+  if (geometry.kind(object) == ObjectKind::placed)
+    return add(kinds, *geometry.placed(object).part, number - first_number(object));
   const ObjectKind kind = geometry.kind(object);
   ++kinds.objects[static_cast<std::size_t>(kind)];
   if (kind == ObjectKind::polygon) kinds.vertices += geometry.polygon(object).vertex_count;

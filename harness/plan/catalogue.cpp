@@ -31,6 +31,17 @@ const std::vector<const TechniqueEntry*>& catalogue() {
   return entries;
 }
 
+namespace {
+
+/// Throws InputError where arguments contradict one another, before anything runs: an empty scene shows it as well.
+void require_consistent(const TechniqueEntry& entry, const Arguments& arguments) {
+  if (entry.info.needs_recorded_hits) return;
+  static const Geometry<float> nothing{Scene{}};
+  entry.build<float>({nothing, arguments});
+}
+
+}  // namespace
+
 TechniqueChoice choose_technique(std::string_view text) {
   if (is_composition(text)) {
     const Expression expression = parse_expression(text, catalogue());
@@ -42,7 +53,9 @@ TechniqueChoice choose_technique(std::string_view text) {
   if (!spec.size.empty() || !spec.form.empty())
     throw InputError(
         fmt::format("technique '{}': write {} or {}(key=value,...)", text, spec.name, spec.name));
-  return {&entry, Arguments(entry.info.parameters, spec.arguments, spec.name), std::string(text), {}};
+  const Arguments arguments(entry.info.parameters, spec.arguments, spec.name);
+  require_consistent(entry, arguments);
+  return {&entry, arguments, std::string(text), {}};
 }
 
 }  // namespace rayshoot

@@ -94,6 +94,19 @@ TEST(Terms, OfExhaustiveSearchAreTheObjectsByKind) {
                                           Pair("polygon_test", 1), Pair("polygon_vertex", 4)));
 }
 
+TEST(Terms, OfPlacedObjectsAreOfTheKindsInTheirParts) {
+  const Scene scene = load_scene("swarm:2").scene;
+  const Geometry<float> geometry(scene);
+  const TechniqueEntry& exhaustive = technique_entry("exhaustive");
+  const auto engine = exhaustive.build<float>({geometry, Arguments(exhaustive.info.parameters, {}, "")});
+  const auto terms = terms_of(*engine, geometry, Batch<float>(rays("primary@33", "swarm:2")));
+  for (const char* kind : {"triangle_test", "polygon_test", "sphere_test", "cone_test"})
+    EXPECT_GT(terms.at(kind), 0) << kind;
+  EXPECT_NEAR(
+      terms.at("triangle_test") + terms.at("polygon_test") + terms.at("sphere_test") + terms.at("cone_test"),
+      terms.at("object_test"), 1e-9);
+}
+
 TEST(Constants, AreWrittenAndReadBack) {
   const std::string text = to_json(builtin_constants());
   EXPECT_EQ(to_json(parse_constants(text, "again")), text);
