@@ -98,9 +98,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"spearman_above_1", {"validate", "a.json", "--min-spearman", "2"}, "--min-spearman"},
         BadInput{"unknown_metric", {"table", "a.json", "--metric", "build"}, "known: objects, ray_count"},
         BadInput{"unknown_dimension", {"table", "a.json", "--rows", "tecnique"}, "technique"},
-        BadInput{"no_inner_technique",
-                 {"run", "--scene", "balls:1", "--technique", "meta_hierarchy(inner=bvh_sa)", "-o", "r.json"},
-                 "did you mean 'bvh_sah'?"},
         BadInput{"no_m_error", {"run", "--target-m-error", "0", "-o", "r.json"}, "--target-m-error"},
         BadInput{"auto_of_no_scene", {"run", "auto", "-o", "r.json"}, "run auto: which scenes?"},
         BadInput{

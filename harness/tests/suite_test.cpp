@@ -73,6 +73,12 @@ TEST(SuiteTest, RefusesWhatItDoesNotKnow) {
               HasSubstr("unknown parameter 'depth'"));
 }
 
+TEST(SuiteTest, RefusesTechniquesWhoseArgumentsCannotBeBuilt) {
+  EXPECT_THAT(refusal(R"({"scenes": ["balls:2"], "rays": ["primary"],
+                          "techniques": [{"name": "meta_hierarchy", "inner": "bvh_sa"}]})"),
+              HasSubstr("did you mean 'bvh_sah'?"));
+}
+
 TEST(SuiteTest, RefusesValuesOutOfRangeOrOfAnotherType) {
   EXPECT_THAT(refusal(R"({"scenes": ["balls"], "repetitions": 0})"),
               HasSubstr("it takes an integer 1 to 1000"));
