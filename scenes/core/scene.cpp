@@ -29,20 +29,13 @@ const Material& Scene::material_of(std::uint32_t number) const {
 
 namespace {
 
-using BoundsOfParts = std::map<const Scene*, Box<double>>;
-
-/// The bounds of a scene whose parts' bounds are known.
-Box<double> bounds_of(const Scene& scene, const BoundsOfParts& parts);
-
-}  // namespace
-
-Box<double> Scene::bounds() const {
-  BoundsOfParts parts;
-  for (const Scene* part : distinct_parts(*this)) parts.emplace(part, bounds_of(*part, parts));
-  return bounds_of(*this, parts);
+/// What `of(scene, parts)` says of a scene, which asks for what it said of the parts placed there: of each once.
+template <class Value, class Of>
+Value from_parts_up(const Scene& whole, const Of& of) {
+  std::map<const Scene*, Value> parts;
+  for (const Scene* part : distinct_parts(whole)) parts.emplace(part, of(*part, parts));
+  return of(whole, parts);
 }
-
-namespace {
 
 Box<double> bounds_of_own(const Scene& scene) {
   Box<double> all;
@@ -65,7 +58,8 @@ Box<double> bounds_of_own(const Scene& scene) {
   return all;
 }
 
-Box<double> bounds_of(const Scene& scene, const BoundsOfParts& parts) {
+/// The bounds of a scene whose parts' bounds are known.
+Box<double> bounds_of(const Scene& scene, const std::map<const Scene*, Box<double>>& parts) {
   Box<double> all = bounds_of_own(scene);
   for (const Placement& placement : scene.placements) {
     const Box<double> box = image(placement.scene_from_part, parts.at(placement.part.get()));
@@ -80,18 +74,17 @@ Box<double> bounds_of(const Scene& scene, const BoundsOfParts& parts) {
 
 }  // namespace
 
+Box<double> Scene::bounds() const { return from_parts_up<Box<double>>(*this, bounds_of); }
+
 ObjectCounts Scene::counts() const {
-  std::map<const Scene*, ObjectCounts> parts;
-  const auto counts_of = [&](const Scene& scene) {
+  return from_parts_up<ObjectCounts>(*this, [](const Scene& scene, const auto& parts) {
     ObjectCounts counts = {scene.triangles.size(), scene.polygons.size(), scene.spheres.size(),
                            scene.cones.size(), scene.placements.size()};
     for (const Placement& placement : scene.placements)
       for (std::size_t kind = 0; kind < counts.size(); ++kind)
         counts[kind] += parts.at(placement.part.get())[kind];
     return counts;
-  };
-  for (const Scene* part : distinct_parts(*this)) parts.emplace(part, counts_of(*part));
-  return counts_of(*this);
+  });
 }
 
 namespace {
@@ -147,18 +140,17 @@ void add_own_content(Digest& digest, const Scene& scene) {
 }  // namespace
 
 std::string scene_hash(const Scene& scene) {
-  std::map<const Scene*, std::uint64_t> parts;
-  const auto digest_of = [&](const Scene& one) {
-    Digest digest;
-    add_own_content(digest, one);
-    for (const Placement& placement : one.placements) {
-      digest.add(parts.at(placement.part.get()));
-      digest.add(placement.scene_from_part), digest.add(placement.velocity);
-    }
-    return digest;
-  };
-  for (const Scene* part : distinct_parts(scene)) parts.emplace(part, digest_of(*part).value());
-  return digest_of(scene).hex();
+  return from_parts_up<Digest>(scene,
+                               [](const Scene& one, const auto& parts) {
+                                 Digest digest;
+                                 add_own_content(digest, one);
+                                 for (const Placement& placement : one.placements) {
+                                   digest.add(parts.at(placement.part.get()).value());
+                                   digest.add(placement.scene_from_part), digest.add(placement.velocity);
+                                 }
+                                 return digest;
+                               })
+      .hex();
 }
 
 namespace {
