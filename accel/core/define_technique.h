@@ -26,10 +26,11 @@ concept TestsObjects = requires(const A a, const typename A::Scratch& scratch) {
 template <class A>
 concept HasKernels = requires(const A a, const Geometry<typename A::Scalar>& arranged,
                               std::span<const Ray<typename A::Scalar>> rays,
-                              std::span<Hit<typename A::Scalar>> hits, std::span<std::uint8_t> blocked) {
+                              std::span<Hit<typename A::Scalar>> hits, std::span<std::uint8_t> blocked,
+                              typename A::Scratch& scratch) {
   { a.kernels_serve(arranged) } -> std::same_as<bool>;
-  {a.kernel_closest(arranged, rays, hits)};
-  {a.kernel_any(arranged, rays, blocked)};
+  {a.kernel_closest(arranged, rays, hits, scratch)};
+  {a.kernel_any(arranged, rays, blocked, scratch)};
 };
 
 /// Derives the batch interface of an engine from a technique's `visit`.
@@ -56,17 +57,17 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
 
   void closest(std::span<const Ray<Real>> rays, std::span<Hit<Real>> hits,
                EngineScratch& scratch) const override {
-    if constexpr (HasKernels<A>)
-      if (technique_.kernels_serve(*geometry_)) return technique_.kernel_closest(*geometry_, rays, hits);
     auto& own = static_cast<Scratch&>(scratch).technique;
+    if constexpr (HasKernels<A>)
+      if (technique_.kernels_serve(*geometry_)) return technique_.kernel_closest(*geometry_, rays, hits, own);
     with_test(own, [&](const auto& test) { closest_of_all(test, rays, hits, own); });
   }
 
   void any(std::span<const Ray<Real>> rays, std::span<std::uint8_t> blocked,
            EngineScratch& scratch) const override {
-    if constexpr (HasKernels<A>)
-      if (technique_.kernels_serve(*geometry_)) return technique_.kernel_any(*geometry_, rays, blocked);
     auto& own = static_cast<Scratch&>(scratch).technique;
+    if constexpr (HasKernels<A>)
+      if (technique_.kernels_serve(*geometry_)) return technique_.kernel_any(*geometry_, rays, blocked, own);
     with_test(own, [&](const auto& test) { any_of_all(test, rays, blocked, own); });
   }
 
@@ -79,7 +80,7 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       Work work;
       hits[i] = counted_query(query, rays[i], own, work);
-      work.distinct_objects = own.make_distinct(geometry_->numbers());
+      work.distinct_objects = own.make_distinct(geometry_->numbers(), name());
       const auto distinct = static_cast<double>(work.distinct_objects);
       sum += {work, square(distinct), i % 2 == 0 ? 0 : square(distinct - neighbour),
               square(static_cast<double>(work.object_tests)), square(static_cast<double>(work.volume_tests))};
@@ -93,13 +94,17 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     auto& own = static_cast<Scratch&>(scratch);
     Work work;
     counted_query(query, ray, own, work);
-    own.make_distinct(geometry_->numbers());
-    std::vector<std::uint32_t> objects(own.candidates.size());
-    std::transform(own.candidates.begin(), own.candidates.end(), objects.begin(), name());
-    std::sort(objects.begin(), objects.end());
-    return objects;
+    own.make_distinct(geometry_->numbers(), name());
+    std::sort(own.candidates.begin(), own.candidates.end());
+    return own.candidates;
   }
 
+  std::size_t rays_per_batch() const override {
+    if constexpr (requires(const A& a) { a.rays_per_batch(); })
+      return technique_.rays_per_batch();
+    else
+      return kRaysPerBatch;
+  }
   StructureStats structure() const override { return technique_.structure(); }
 
   std::optional<Prediction<Real>> predicted() const override {
@@ -113,8 +118,10 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
   struct Scratch final : EngineScratch {
     explicit Scratch(typename A::Scratch own) : technique(std::move(own)) {}
 
-    /// Leave each of the `candidates` in place once; returns their number.
-    std::uint64_t make_distinct(std::uint32_t objects) {
+    /// Leave each of the `candidates` in place once, by its name; returns their number.
+    std::uint64_t make_distinct(std::uint32_t objects, Naming name) {
+      if constexpr (OrdersObjects<A>)
+        std::transform(candidates.begin(), candidates.end(), candidates.begin(), name);
       // Where parts are placed there may be more objects than can be remembered.
       if constexpr (TestsObjects<A>) {
         std::sort(candidates.begin(), candidates.end());

@@ -9,6 +9,9 @@ namespace rayshoot {
 
 enum class Query { closest, any, strict };
 
+/// Rays a thread takes at a time: enough to make the one virtual call per batch invisible.
+inline constexpr std::size_t kRaysPerBatch = 4096;
+
 /// What a counted batch found out, beyond the sum of its work: the moments of the number of distinct
 /// candidates per ray, from which M and its interval follow, and of the tests, for the intervals of equation
 /// (3).
@@ -45,6 +48,8 @@ class Engine {
   virtual std::vector<std::uint32_t> candidates(Query query, const Ray<Real>& ray,
                                                 EngineScratch& scratch) const = 0;
 
+  /// Rays that it had best be given at a time, where there are so many.
+  virtual std::size_t rays_per_batch() const { return kRaysPerBatch; }
   virtual StructureStats structure() const = 0;
   virtual std::optional<Prediction<Real>> predicted() const { return std::nullopt; }
 };

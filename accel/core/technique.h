@@ -104,8 +104,9 @@ struct ArchetypeLeaf {
 /// (accel/core/queries.h). It is immutable; what a query changes lives in its Scratch.
 ///
 /// It may also define
-///   std::span<const std::uint32_t> order() const   to give the leaf positions in that permutation of the
-///       objects instead of objects; the objects are then laid out in memory in that order;
+///   std::span<const std::uint32_t> order() const   to give the leaf positions in that order of the objects instead of
+///       objects; the objects are then laid out in memory in that order, each at least once;
+///   std::size_t rays_per_batch() const             to ask for more rays at a time than `kRaysPerBatch`;
 ///   Prediction<Real> predicted() const             to state what equation (3) expects; std::optional where it can do
 ///       so for some configurations only.
 template <class A>

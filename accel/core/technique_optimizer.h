@@ -23,8 +23,9 @@ class TechniqueOptimizer : public Optimizer<typename A::Scalar> {
   TechniqueOptimizer(const OptimizerInput<Real>& input, const Arguments& arguments)
       : technique_(A::build({input.geometry, input.sample}, A::configure(arguments))) {
     renames_ = OrdersObjects<A> || !input.names.empty();
-    names_.reserve(input.geometry.size());
-    for (std::uint32_t position = 0; position < input.geometry.size(); ++position)
+    const std::size_t positions = count_of_positions(input.geometry.size());
+    names_.reserve(positions);
+    for (std::uint32_t position = 0; position < positions; ++position)
       names_.push_back(input.name(object_at(position)));
   }
 
@@ -72,6 +73,12 @@ class TechniqueOptimizer : public Optimizer<typename A::Scalar> {
   bool renames_ = false;
 
  private:
+  std::size_t count_of_positions(std::size_t objects) const {
+    if constexpr (OrdersObjects<A>)
+      return technique_.order().size();
+    else
+      return objects;
+  }
   std::uint32_t object_at(std::uint32_t position) const {
     if constexpr (OrdersObjects<A>)
       return technique_.order()[position];

@@ -13,6 +13,32 @@ struct WideAvx2 {
   using Floats = __m128;
   using Doubles = __m256d;
 
+  /// Rays that go together, one in each lane.
+  static constexpr std::uint32_t kRays = 8;
+  using Lanes = __m256;
+
+  static Lanes lanes(const float* from) { return _mm256_load_ps(from); }
+  static void store(Lanes a, float* to) { _mm256_store_ps(to, a); }
+  static Lanes all(float value) { return _mm256_set1_ps(value); }
+  static Lanes larger(Lanes a, Lanes b) { return _mm256_max_ps(a, b); }
+  static Lanes smaller(Lanes a, Lanes b) { return _mm256_min_ps(a, b); }
+  /// a b + c, and c - a b, rounded once.
+  static Lanes sum(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a, b, c); }
+  static Lanes rest(Lanes a, Lanes b, Lanes c) { return _mm256_fnmadd_ps(a, b, c); }
+  static Lanes magnitudes(Lanes a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
+  static Lanes signs(Lanes a) { return _mm256_and_ps(a, _mm256_set1_ps(-0.0f)); }
+  static Lanes turned(Lanes a, Lanes signs) { return _mm256_xor_ps(a, signs); }
+  static unsigned below(Lanes a, Lanes b) {
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ)));
+  }
+  static float least(Lanes a) {
+    const __m128 four = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
+    const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+    return _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)));
+  }
+  static float largest(Lanes a) { return -least(-a); }
+  static unsigned negative(Lanes a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }
+
   static Floats load(const float* from) { return _mm_loadu_ps(from); }
   static Floats spread(float value) { return _mm_set1_ps(value); }
   static Doubles spread(double value) { return _mm256_set1_pd(value); }

@@ -14,6 +14,27 @@ struct WideAvx512 {
   using Floats = __m256;
   using Doubles = __m512d;
 
+  /// Rays that go together, one in each lane.
+  static constexpr std::uint32_t kRays = 16;
+  using Lanes = __m512;
+
+  static Lanes lanes(const float* from) { return _mm512_load_ps(from); }
+  static void store(Lanes a, float* to) { _mm512_store_ps(to, a); }
+  static Lanes all(float value) { return _mm512_set1_ps(value); }
+  static Lanes larger(Lanes a, Lanes b) { return _mm512_max_ps(a, b); }
+  static Lanes smaller(Lanes a, Lanes b) { return _mm512_min_ps(a, b); }
+  /// a b + c, and c - a b, rounded once.
+  static Lanes sum(Lanes a, Lanes b, Lanes c) { return _mm512_fmadd_ps(a, b, c); }
+  static Lanes rest(Lanes a, Lanes b, Lanes c) { return _mm512_fnmadd_ps(a, b, c); }
+  static Lanes magnitudes(Lanes a) { return _mm512_abs_ps(a); }
+  static Lanes signs(Lanes a) { return _mm512_and_ps(a, _mm512_set1_ps(-0.0f)); }
+  static Lanes turned(Lanes a, Lanes signs) { return _mm512_xor_ps(a, signs); }
+  static unsigned not_above(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+  static unsigned below(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+  static float least(Lanes a) { return _mm512_reduce_min_ps(a); }
+  static float largest(Lanes a) { return _mm512_reduce_max_ps(a); }
+  static unsigned negative(Lanes a) { return _mm512_movepi32_mask(_mm512_castps_si512(a)); }
+
   static Floats load(const float* from) { return _mm256_loadu_ps(from); }
   static Floats spread(float value) { return _mm256_set1_ps(value); }
   static Doubles spread(double value) { return _mm512_set1_pd(value); }

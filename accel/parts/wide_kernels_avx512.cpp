@@ -8,6 +8,7 @@
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
 // GCC 12's own intrinsics begin with vectors that they leave open on purpose.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
 
 #include "accel/parts/wide_avx512.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "accel/parts/wide_kernels.h"
-#include "accel/parts/wide_triangle_test.h"
+#include "accel/parts/wide_packet_test.h"
 #include "accel/parts/wide_walk.h"
 
 // Read where code for a kind of processor begins: all that is not included is a template over its instructions.
@@ -11,25 +11,38 @@ namespace rayshoot {
 /// The searches of WideKernels.
 template <class Isa>
 struct WideSearch {
-  static void closest_of_all(const WideScene& scene, std::span<const Ray<float>> rays,
-                             std::span<Hit<float>> hits) {
-    suited(scene, rays, [&](auto others, const auto& manner) {
-      for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest<others>(scene, manner, rays[i]);
+  static void closest_of_all(const WideScene& scene, const WideBatch& batch, std::span<Hit<float>> hits) {
+    suited(scene, batch, [&](auto others, const auto& manner) {
+      const auto one = [&](std::size_t i) { hits[i] = closest<others>(scene, manner, batch.rays[i]); };
+      const auto packet = [&](Packet& rays, std::size_t first) {
+        closest_of_packet<others>(scene, rays);
+        for (std::uint32_t lane = 0; lane < Packet::kRays; ++lane) hits[first + lane] = rays.hit(lane);
+      };
+      for_each(batch, one, packet);
     });
   }
-  static void any_of_all(const WideScene& scene, std::span<const Ray<float>> rays,
-                         std::span<std::uint8_t> blocked) {
-    suited(scene, rays, [&](auto others, const auto& manner) {
-      for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = any<others>(scene, manner, rays[i]);
+  static void any_of_all(const WideScene& scene, const WideBatch& batch, std::span<std::uint8_t> blocked) {
+    suited(scene, batch, [&](auto others, const auto& manner) {
+      const auto one = [&](std::size_t i) { blocked[i] = any<others>(scene, manner, batch.rays[i]); };
+      const auto packet = [&](Packet& rays, std::size_t first) {
+        any_of_packet<others>(scene, rays);
+        for (std::uint32_t lane = 0; lane < Packet::kRays; ++lane)
+          blocked[first + lane] = rays.reach[lane] == kBlocked;
+      };
+      for_each(batch, one, packet);
     });
   }
 
  private:
+  using Packet = WidePacket<Isa>;
+  /// Where a ray looks no farther, since it is blocked.
+  static constexpr float kBlocked = -1;
+
   /// Call `search` with whether the scene has others than triangles, and in the manner that suits the rays.
   template <class Search>
-  static void suited(const WideScene& scene, std::span<const Ray<float>> rays, const Search& search) {
+  static void suited(const WideScene& scene, const WideBatch& batch, const Search& search) {
     const auto with_manner = [&](auto others) {
-      if (are_coherent(rays)) return search(others, WideCoherent<Isa>{});
+      if (batch.is_coherent()) return search(others, WideCoherent<Isa>{});
       search(others, WideIncoherent<Isa, float>{scene.tree.nodes.data(), scene.triangles.begin(),
                                                 WideTriangles::kBytes});
     };
@@ -39,31 +52,56 @@ struct WideSearch {
       with_manner(std::false_type{});
   }
 
-  /// Whether successive rays take much the same way: looked at in 64 places, the directions of most neighbours differ
-  /// by less than a tenth of their length.
-  static bool are_coherent(std::span<const Ray<float>> rays) {
-    const std::size_t stride = std::max<std::size_t>(rays.size() / 64, 1);
-    std::size_t pairs = 0, alike = 0;
-    for (std::size_t i = 1; i < rays.size(); i += stride, ++pairs) {
-      const Vec3<float>&a = rays[i - 1].direction, &b = rays[i].direction;
-      alike += 100 * dot(a - b, a - b) < dot(a, a);
+  /// Call packet(rays, first) for as many rays at once as go together, and one(ray) for the others.
+  template <class One, class PacketOf>
+  static void for_each(const WideBatch& batch, const One& one, const PacketOf& packet) {
+    const std::size_t count = batch.rays.size();
+    if (!batch.in_packets) return batch.for_each(one);
+    std::size_t first = 0;
+    for (; first + Packet::kRays <= count; first += Packet::kRays) {
+      Packet rays(&batch.rays[first]);
+      if (rays.goes_one_way())
+        packet(rays, first);
+      else
+        for (std::uint32_t lane = 0; lane < Packet::kRays; ++lane) one(first + lane);
     }
-    return 4 * alike > 3 * pairs;
+    for (; first < count; ++first) one(first);
   }
 
   template <bool kOthers, class Manner>
   [[gnu::flatten, gnu::noinline]] static Hit<float> closest(const WideScene& scene, const Manner& manner,
                                                             const Ray<float>& given) {
-    Hit<float> hit;
     const WideRay<Isa> ray(given);
-    if (scene.tree.empty() || !ray.can_hit) return hit;
-    float reach = ray.begun.t_max;
-    const auto keep = [&](float t, std::uint32_t object) {
-      if (t > reach || (t == hit.t && object > hit.object)) return;
-      hit = {t, object}, reach = t;
-    };
+    if (scene.tree.empty() || !ray.can_hit) return {};
+    Nearest nearest{ray.begun().t_max};
+    closest_below<kOthers>(scene, manner, WideChild::interior(0), ray, nearest);
+    return nearest.hit();
+  }
+  template <bool kOthers, class Manner>
+  [[gnu::flatten, gnu::noinline]] static bool any(const WideScene& scene, const Manner& manner,
+                                                  const Ray<float>& given) {
+    const WideRay<Isa> ray(given);
+    if (scene.tree.empty() || !ray.can_hit) return false;
+    return any_below<kOthers>(scene, manner, WideChild::interior(0), ray, ray.begun().t_max);
+  }
 
-    const WideTriangleTest<Isa> test(ray);
+  /// The nearest hit so far, of equal distances the lowest object.
+  struct Nearest {
+    float reach;
+    std::uint32_t object = kNoObject;
+
+    void keep(float t, std::uint32_t which) {
+      if (t > reach || (t == reach && which > object)) return;
+      reach = t, object = which;
+    }
+    Hit<float> hit() const { return object == kNoObject ? Hit<float>{} : Hit<float>{reach, object}; }
+  };
+
+  template <bool kOthers, class Manner, class OneRay>
+  static void closest_below(const WideScene& scene, const Manner& manner, WideChild start, const OneRay& ray,
+                            Nearest& given) {
+    // A copy of its own stays in registers.
+    Nearest nearest = given;
     const auto visit = [&](WideChild leaf) {
       const std::uint32_t count = leaf.count();
       const float* const rows = scene.triangles.leaf(leaf);
@@ -71,53 +109,104 @@ struct WideSearch {
         // Test the triangles of the leaf at once, then one by one what else is in it.
         const unsigned others = kOthers ? no_triangles(rows, count, first) : 0;
         if (others != in_use(count, first)) {
-          const auto found = test(rows, count, first, reach);
+          const auto found = hits_in_leaf<Isa>(ray, rows, count, first, nearest.reach);
           float t[Isa::kObjects];
           if (found.bits != 0) std::memcpy(t, &found.t, sizeof t);
           for (unsigned bits = found.bits; bits != 0; bits &= bits - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-            keep(t[lane], std::bit_cast<std::uint32_t>(rows[9 * count + first + lane]));
+            nearest.keep(t[lane], number_of(rows, count, first + lane));
           }
         }
         for (unsigned bits = others; bits != 0; bits &= bits - 1) {
           const std::uint32_t place = place_of(leaf, first, bits);
-          const float t = other_hit_distance(scene, place, ray.begun, reach);
-          if (t <= reach) keep(t, scene.order[place]);
+          const float t = other_hit_distance(scene, place, ray.begun(), nearest.reach);
+          if (t <= nearest.reach) nearest.keep(t, scene.order[place]);
         }
       }
       return false;
     };
-    const WideCrossings<Isa, float> crossings(ray);
+    const WideCrossings<Isa, float> crossings(ray, scene.margin_of(ray));
     walk_wide<Isa>(
-        scene.tree, crossings, NoCount{}, [&] { return reach; }, manner, visit);
-    return hit;
+        scene.tree, start, crossings, NoCount{}, [&] { return nearest.reach; }, manner, visit);
+    given = nearest;
   }
 
-  template <bool kOthers, class Manner>
-  [[gnu::flatten, gnu::noinline]] static bool any(const WideScene& scene, const Manner& manner,
-                                                  const Ray<float>& given) {
+  template <bool kOthers, class Manner, class OneRay>
+  static bool any_below(const WideScene& scene, const Manner& manner, WideChild start, const OneRay& ray,
+                        float reach) {
     bool blocked = false;
-    const WideRay<Isa> ray(given);
-    if (scene.tree.empty() || !ray.can_hit) return blocked;
-    const float reach = ray.begun.t_max;
-
-    const WideTriangleTest<Isa> test(ray);
     const auto visit = [&](WideChild leaf) {
       const std::uint32_t count = leaf.count();
       const float* const rows = scene.triangles.leaf(leaf);
       for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
         const unsigned others = kOthers ? no_triangles(rows, count, first) : 0;
-        if (others != in_use(count, first) && test(rows, count, first, reach).bits != 0)
+        if (others != in_use(count, first) && hits_in_leaf<Isa>(ray, rows, count, first, reach).bits != 0)
           return blocked = true;
         for (unsigned bits = others; bits != 0; bits &= bits - 1)
-          if (other_hit_distance(scene, place_of(leaf, first, bits), ray.begun, reach) <= reach)
+          if (other_hit_distance(scene, place_of(leaf, first, bits), ray.begun(), reach) <= reach)
             return blocked = true;
       }
       return false;
     };
-    const WideCrossings<Isa, float> crossings(ray);
-    walk_wide_unordered<Isa>(scene.tree, crossings, NoCount{}, reach, manner, visit);
+    const WideCrossings<Isa, float> crossings(ray, scene.margin_of(ray));
+    walk_wide_unordered<Isa>(scene.tree, start, crossings, NoCount{}, reach, manner, visit);
     return blocked;
+  }
+
+  template <bool kOthers>
+  [[gnu::flatten, gnu::noinline]] static void closest_of_packet(const WideScene& scene, Packet& packet) {
+    const auto keep = [&](std::uint32_t lane, float t, std::uint32_t object) {
+      Nearest nearest{packet.reach[lane], packet.object[lane]};
+      nearest.keep(t, object);
+      packet.reach[lane] = nearest.reach, packet.object[lane] = nearest.object;
+    };
+    const auto visit = [&](WideChild leaf, unsigned rays) {
+      visit_leaf<kOthers>(scene, packet, leaf, rays, keep);
+    };
+    const auto alone = [&](WideChild child, std::uint32_t lane) {
+      Nearest nearest{packet.reach[lane], packet.object[lane]};
+      closest_below<kOthers>(scene, WideCoherent<Isa>{}, child, WidePacketRay<Isa>{packet, lane}, nearest);
+      packet.reach[lane] = nearest.reach, packet.object[lane] = nearest.object;
+    };
+    walk_packet<Isa>(scene.tree, packet, visit, alone);
+  }
+
+  template <bool kOthers>
+  [[gnu::flatten, gnu::noinline]] static void any_of_packet(const WideScene& scene, Packet& packet) {
+    const auto block = [&](std::uint32_t lane, float, std::uint32_t) { packet.reach[lane] = kBlocked; };
+    const auto visit = [&](WideChild leaf, unsigned rays) {
+      visit_leaf<kOthers>(scene, packet, leaf, rays, block);
+    };
+    const auto alone = [&](WideChild child, std::uint32_t lane) {
+      if (any_below<kOthers>(scene, WideCoherent<Isa>{}, child, WidePacketRay<Isa>{packet, lane},
+                             packet.reach[lane]))
+        packet.reach[lane] = kBlocked;
+    };
+    walk_packet<Isa>(scene.tree, packet, visit, alone);
+  }
+
+  /// Call found(lane, t, object) for what rays of a packet hit in a leaf.
+  template <bool kOthers, class Found>
+  static void visit_leaf(const WideScene& scene, const Packet& packet, WideChild leaf, unsigned rays,
+                         const Found& found) {
+    const std::uint32_t count = leaf.count();
+    const float* const rows = scene.triangles.leaf(leaf);
+    const WidePacketTest<Isa> test(rows, count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (kOthers && std::isnan(rows[i])) {
+        for (unsigned bits = rays; bits != 0; bits &= bits - 1) {
+          const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
+          const WidePacketRay<Isa> ray{packet, lane};
+          const float t = other_hit_distance(scene, leaf.first() + i, ray.begun(), packet.reach[lane]);
+          if (t <= packet.reach[lane]) found(lane, t, scene.order[leaf.first() + i]);
+        }
+        continue;
+      }
+      const unsigned possible = rays & test.may_hit(packet, i);
+      if (possible != 0)
+        test.hits(packet, i, possible,
+                  [&](std::uint32_t lane, float t) { found(lane, t, number_of(rows, count, i)); });
+    }
   }
 
   // One bit for each object from number `first` on among the `count` of a leaf: for all, and for what is no triangle.
@@ -131,6 +220,10 @@ struct WideSearch {
   /// The place in the order of the object that the lowest of the bits stands for.
   static std::uint32_t place_of(WideChild leaf, std::uint32_t first, unsigned bits) {
     return leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
+  }
+  /// What an object of a leaf is called.
+  static std::uint32_t number_of(const float* leaf, std::uint32_t count, std::uint32_t which) {
+    return std::bit_cast<std::uint32_t>(leaf[9 * count + which]);
   }
 };
 

@@ -40,11 +40,9 @@ struct MetChildren {
   static int last_key(float distance) { return std::bit_cast<int>(distance) | kChildBits; }
 };
 
-/// A ray that has `begun`, with its `Crossings` in lanes, of which the fourth is of no account.
+/// A ray that has `begun`, with its `Crossings`.
 template <class Isa>
 struct WideRay {
-  Ray<float> begun;
-  __m128 inverse, earliest, latest;
   /// Whether the ray can hit anything: its origin and direction are finite, and its interval holds a number.
   bool can_hit;
 
@@ -53,38 +51,53 @@ struct WideRay {
     // The ray is read and written as a whole: parts of it would have to wait for one another.
     const __m256 all = _mm256_loadu_ps(&given.origin.x);
     const __m256 from_zero = _mm256_blend_ps(all, _mm256_max_ps(all, _mm256_setzero_ps()), 0b1000);
-    _mm256_storeu_ps(&begun.origin.x, from_zero);
+    _mm256_storeu_ps(&begun_.origin.x, from_zero);
 
     const __m128 limit = _mm_set1_ps(std::numeric_limits<float>::max() / 2);
     // In the last lane stands t_max, whose inverse may be a denormal number, over which processors stumble.
     const __m128 direction = _mm_blend_ps(_mm256_extractf128_ps(all, 1), _mm_set1_ps(1), 0b1000);
     const __m128 unlimited = _mm_set1_ps(1) / direction;
-    inverse = _mm_min_ps(_mm_max_ps(unlimited, -limit), limit);
-    earliest = inverse * (1 - kCrossingError<float>);
-    latest = inverse * (1 + kCrossingError<float>);
+    const __m128 inverse = _mm_min_ps(_mm_max_ps(unlimited, -limit), limit);
+    earliest_ = inverse * (1 - kCrossingError<float>);
+    latest_ = inverse * (1 + kCrossingError<float>);
 
     const __m256 zero = all - all;
     const auto finite = static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(zero, zero, _CMP_ORD_Q)));
-    can_hit = (finite & 0x77) == 0x77 && begun.t_min < begun.t_max;
+    can_hit = (finite & 0x77) == 0x77 && begun_.t_min < begun_.t_max;
   }
+
+  const Ray<float>& begun() const { return begun_; }
+  float origin(int axis) const { return begun_.origin[axis]; }
+  float direction(int axis) const { return begun_.direction[axis]; }
+  float earliest(int axis) const { return earliest_[axis]; }
+  float latest(int axis) const { return latest_[axis]; }
+  float t_min() const { return begun_.t_min; }
+
+ private:
+  Ray<float> begun_;
+  __m128 earliest_, latest_;
 };
 
-/// A ray prepared for testing the boxes of wide nodes: `Crossings::inside` for all at once, to the last bit.
+/// A ray prepared for testing the boxes of wide nodes, all of them as if grown by `margin`: where that is 0,
+/// `Crossings::inside` for all at once, to the last bit.
 template <class Isa, class Real>
 class WideCrossings;
 
 template <class Isa>
 class WideCrossings<Isa, float> {
  public:
-  explicit WideCrossings(const WideRay<Isa>& ray) {
-    const auto signs = static_cast<unsigned>(_mm_movemask_ps(ray.inverse));
+  template <class OneRay>
+  explicit WideCrossings(const OneRay& ray, float margin = 0) {
     for (int axis = 0; axis < 3; ++axis) {
-      origin_[axis] = _mm256_set1_ps(ray.begun.origin[axis]);
-      earliest_[axis] = _mm256_set1_ps(ray.earliest[axis]);
-      latest_[axis] = _mm256_set1_ps(ray.latest[axis]);
-      near_[axis] = signs >> axis & 1;
+      near_[axis] = std::signbit(ray.earliest(axis));
+      // To come from farther back and to look farther ahead is to meet larger boxes.
+      const float grown = near_[axis] ? -margin : margin;
+      near_origin_[axis] = _mm256_set1_ps(ray.origin(axis) + grown);
+      far_origin_[axis] = _mm256_set1_ps(ray.origin(axis) - grown);
+      earliest_[axis] = _mm256_set1_ps(ray.earliest(axis));
+      latest_[axis] = _mm256_set1_ps(ray.latest(axis));
     }
-    start_ = _mm256_set1_ps(ray.begun.t_min);
+    start_ = _mm256_set1_ps(ray.t_min());
   }
 
   MetChildren<Isa> met(const WideNode<float>& node, float reach) const {
@@ -97,20 +110,21 @@ class WideCrossings<Isa, float> {
 
  private:
   __m256 enters(const WideNode<float>& node, int axis) const {
-    return (_mm256_load_ps(node.planes[axis][near_[axis]]) - origin_[axis]) * earliest_[axis];
+    return (_mm256_load_ps(node.planes[axis][near_[axis]]) - near_origin_[axis]) * earliest_[axis];
   }
   __m256 exits(const WideNode<float>& node, int axis) const {
-    return (_mm256_load_ps(node.planes[axis][near_[axis] ^ 1]) - origin_[axis]) * latest_[axis];
+    return (_mm256_load_ps(node.planes[axis][near_[axis] ^ 1]) - far_origin_[axis]) * latest_[axis];
   }
 
-  __m256 origin_[3], earliest_[3], latest_[3], start_;
+  __m256 near_origin_[3], far_origin_[3], earliest_[3], latest_[3], start_;
   std::size_t near_[3];
 };
 
 template <class Isa>
 class WideCrossings<Isa, double> {
  public:
-  explicit WideCrossings(const Ray<double>& ray) : crossings_(ray), start_(ray.t_min) {}
+  explicit WideCrossings(const Ray<double>& ray, double margin = 0)
+      : crossings_(ray), start_(ray.t_min), margin_(margin) {}
 
   MetChildren<Isa> met(const WideNode<double>& node, double reach) const {
     const Half low = half(node, 0, reach), high = half(node, 1, reach);
@@ -127,9 +141,9 @@ class WideCrossings<Isa, double> {
     __m256d enter = _mm256_set1_pd(start_), exit = _mm256_set1_pd(reach);
     for (int axis = 0; axis < 3; ++axis) {
       const int near = crossings_.inverse[axis] < 0;
-      const __m256d origin = _mm256_set1_pd(crossings_.origin[axis]);
-      const __m256d enters = _mm256_load_pd(node.planes[axis][near] + 4 * which) - origin;
-      const __m256d exits = _mm256_load_pd(node.planes[axis][near ^ 1] + 4 * which) - origin;
+      const double origin = crossings_.origin[axis], grown = near ? -margin_ : margin_;
+      const __m256d enters = _mm256_load_pd(node.planes[axis][near] + 4 * which) - (origin + grown);
+      const __m256d exits = _mm256_load_pd(node.planes[axis][near ^ 1] + 4 * which) - (origin - grown);
       enter = _mm256_max_pd(enters * _mm256_set1_pd(crossings_.earliest[axis]), enter);
       exit = _mm256_min_pd(exits * _mm256_set1_pd(crossings_.latest[axis]), exit);
     }
@@ -138,7 +152,7 @@ class WideCrossings<Isa, double> {
   }
 
   Crossings<double> crossings_;
-  double start_;
+  double start_, margin_;
 };
 
 /// children[which], found by a jump: the processor guesses where it goes and is at the child before `which` is worked out.
@@ -281,16 +295,16 @@ class WideStack {
   WideChild children_[kPlaces];
 };
 
-/// The leaves of a wide hierarchy that a ray meets, near to far: of a node's children the nearest is entered, the others
+/// The leaves below `start` in a wide hierarchy that a ray meets, near to far: of a node's children the nearest is entered, the others
 /// wait in order of distance until it is done.
 ///   visit(leaf)  is called with each leaf, a WideChild; true ends the walk
 ///   reach()      is the distance at which the walk may end; leaves that begin there are still visited
 template <class Isa, class Real, class Counter, class Reach, class Manner, class Visit>
-void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count,
-               const Reach& reach, const Manner& manner, const Visit& visit) {
+void walk_wide(const WideTree<Real>& tree, WideChild start, const WideCrossings<Isa, Real>& crossings,
+               Counter count, const Reach& reach, const Manner& manner, const Visit& visit) {
   WideStack<Isa> stack;
   unsigned waiting = 0;
-  WideChild current = WideChild::interior(0);
+  WideChild current = start;
   const WideNode<Real>* const nodes = tree.nodes.data();
   while (true) {
     if (current.is_leaf()) {
@@ -308,10 +322,11 @@ void walk_wide(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& cross
   }
 }
 
-/// The leaves of a wide hierarchy that a ray meets up to `reach`, in no order of distance: for those who look for any hit.
+/// The leaves below `start` in a wide hierarchy that a ray meets up to `reach`, in no order of distance: for those who look for any hit.
 template <class Isa, class Real, class Counter, class Manner, class Visit>
-void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Real>& crossings, Counter count,
-                         Real reach, const Manner& manner, const Visit& visit) {
+void walk_wide_unordered(const WideTree<Real>& tree, WideChild start,
+                         const WideCrossings<Isa, Real>& crossings, Counter count, Real reach,
+                         const Manner& manner, const Visit& visit) {
   struct Waiting {
     const WideNode<Real>* node;
     unsigned bits;
@@ -320,7 +335,7 @@ void walk_wide_unordered(const WideTree<Real>& tree, const WideCrossings<Isa, Re
   Waiting levels[kMaxSahDepth + 1];
   Waiting* top = levels;
   const auto first = [](unsigned bits) { return static_cast<unsigned>(std::countr_zero(bits)) % kWideWidth; };
-  WideChild current = WideChild::interior(0);
+  WideChild current = start;
   const WideNode<Real>* const nodes = tree.nodes.data();
   while (true) {
     if (current.is_leaf()) {

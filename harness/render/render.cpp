@@ -51,7 +51,7 @@ HeatMap work_map(const Scene& scene, const TechniqueEntry& technique, const Argu
     rays.push_back({.origin = Vec3<Real>(ray.origin), .direction = Vec3<Real>(ray.direction)});
   HeatMap map{options.width, options.height, std::vector<double>(rays.size()), "", ""};
   ThreadScratch<Real> scratch(*engine);
-  for_batches(rays.size(), options.threads, [&](std::size_t first, std::size_t last) {
+  for_batches(rays.size(), kRaysPerBatch, options.threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       Hit<Real> hit;
       const Work work = engine->count(Query::closest, {&rays[i], 1}, {&hit, 1}, scratch.local()).total;
