@@ -136,7 +136,7 @@ template <class Isa, class Visit, class Alone>
 void walk_packet(const WideTree<float>& tree, const WidePacket<Isa>& packet, const Visit& visit,
                  const Alone& alone) {
   // So few rays are faster one by one.
-  constexpr int kFew = 3;
+  constexpr int kFew = 6;
   struct Waiting {
     int key;
     WideChild child;
