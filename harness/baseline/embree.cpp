@@ -9,13 +9,16 @@
 //            robust          watertight triangles and conservative boxes, 10 to 25 % slower
 //            mode            single traces ray by ray; stream hands over 256 rays at a time, packet 16 that go
 //                            through the tree together; both pay where neighbours are alike
-//            coherent        tells Embree that the rays of a stream or packet are alike
+//            coherent        tells Embree that the rays of a stream or packet are alike: camera rays take half the
+//                            time or the same, diffuse ones more than twice
 //            spheres         native, or user: our sphere test behind a callback
 //            flush_to_zero   trace with denormal numbers taken as zero, as Embree advises; off as everywhere
 // Cost       not known: Embree does not count. About 64 bytes a triangle.
 // Weak       long thin triangles in many directions, such as hair. Objects beyond 1.8e18 are invisible to it.
 //            It aborts on rays that are not finite, so these miss without asking it. A native sphere that a
 //            ray starts on exactly may be hit at t_min.
+// Build      Debian's library has assertions on, which reports record. Beside it a release build of 3.13.5 was 0 to
+//            4 % faster on coherent rays, equal on incoherent ones, and did not abort.
 
 #include <array>
 #include <stdexcept>

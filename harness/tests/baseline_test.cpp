@@ -4,6 +4,7 @@
 #include "accel/tests/nasty_scenes.h"
 #include "accel/tests/scene_conformance.h"
 #include "harness/baseline/baselines.h"
+#include "harness/baseline/embree_scene.h"
 #include "scenes/io/load_scene.h"
 
 namespace rayshoot {
@@ -323,6 +324,30 @@ TEST(Embree, BuildsAnotherTreeForEveryQuality) {
 TEST(Embree, RefusesCoherenceOfSingleRays) {
   const Geometry<float> geometry(load_scene("balls:1").scene);
   EXPECT_THROW(build({&baseline("embree"), {{"coherent", "on"}}}, geometry), InputError);
+}
+
+/// A ray that an assertion of Embree's forbids ends a program that has them.
+TEST(EmbreeDeathTest, AbortsWhereItHasAssertions) {
+  const auto trace_nonsense = [] {
+    EmbreeGeometry mesh(RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = mesh.buffer<Vec3<float>>(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3);
+    vertices[0] = {0, 0, 0}, vertices[1] = {1, 0, 0}, vertices[2] = {0, 1, 0};
+    *mesh.buffer<std::array<unsigned, 3>>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 1) = {0, 1, 2};
+    EmbreeScene scene(RTC_BUILD_QUALITY_MEDIUM, false);
+    scene.attach(mesh, 0);
+    scene.build();
+    RTCRayHit ray{.ray = {.org_x = std::numeric_limits<float>::quiet_NaN(), .dir_x = 1, .tfar = 1},
+                  .hit = {}};
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene.get(), &context, &ray);
+    std::_Exit(0);
+  };
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  if (embree_has_assertions())
+    EXPECT_DEATH(trace_nonsense(), "Assertion");
+  else
+    EXPECT_EXIT(trace_nonsense(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(Baselines, AreListedWithTheVersionOfEmbree) {
