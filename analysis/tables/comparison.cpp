@@ -151,6 +151,7 @@ std::string render_comparison(const std::vector<report::Report>& reports, Format
   };
   if (format != Format::csv) {
     append(scaling_tables(reports));
+    append(growth_tables(reports));
     append(overview_tables(reports));
     append(work_precision_tables(reports));
   }
