@@ -9,6 +9,7 @@
 #include <set>
 
 #include "analysis/tables/page.h"
+#include "analysis/tables/wall_time.h"
 
 namespace rayshoot::analysis {
 
@@ -36,6 +37,7 @@ std::vector<Fact> facts() {
       {"command", [](const Report& r) { return r.run.command; }},
       {"started (UTC)", [](const Report& r) { return r.run.started_utc; }},
       {"seconds", [](const Report& r) { return significant(r.run.seconds); }},
+      {"spent on", [](const Report& r) { return wall_time(r.run); }},
       {"commit",
        [](const Report& r) { return r.run.git_commit + (r.run.git_dirty ? ", with changes" : ""); }},
       {"seed", [](const Report& r) { return fmt::format("{}", r.run.seed); }},

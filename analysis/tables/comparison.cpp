@@ -94,6 +94,21 @@ std::string task_of(const Group& group) {
   return task;
 }
 
+/// What concerns a whole run.
+std::vector<std::string> notes_of(const report::Report& report, const std::vector<Group>& measured) {
+  std::vector<std::string> notes;
+  const bool beside_embree = std::any_of(measured.begin(), measured.end(), [](const Group& group) {
+    return !group.entries.empty() && group.entries[0].embree;
+  });
+  const auto& packages = report.environment.packages;
+  if (const auto found = packages.find("embree_assertions");
+      beside_embree && found != packages.end() && found->second == "on")
+    notes.emplace_back(
+        "Embree was built with assertions, as Debian does: a release build is up to 4 % faster.");
+  if (!report.run.complete) notes.emplace_back("The run was interrupted: cells after this one are missing.");
+  return notes;
+}
+
 Table table_of(const Group& group, bool several_reports) {
   Table table{.title = title_of(group, several_reports) + task_of(group), .notes = notes_of(group)};
   for (const ComparisonColumn& column : comparison_columns()) table.columns.push_back(column.column);
@@ -123,8 +138,8 @@ std::vector<Table> comparison_tables(const std::vector<report::Report>& reports)
   for (const report::Report& report : reports) {
     const std::vector<Group> measured = groups(report);
     for (const Group& group : measured) tables.push_back(table_of(group, reports.size() > 1));
-    if (!report.run.complete && !measured.empty())
-      tables.back().notes.push_back("The run was interrupted: cells after this one are missing.");
+    if (measured.empty()) continue;
+    for (const std::string& note : notes_of(report, measured)) tables.back().notes.push_back(note);
   }
   return tables;
 }
@@ -136,6 +151,7 @@ std::string render_comparison(const std::vector<report::Report>& reports, Format
   };
   if (format != Format::csv) {
     append(scaling_tables(reports));
+    append(growth_tables(reports));
     append(overview_tables(reports));
     append(work_precision_tables(reports));
   }

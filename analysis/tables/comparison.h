@@ -18,6 +18,13 @@ std::vector<Table> overview_tables(const std::vector<report::Report>& reports);
 /// One table for each group in which thread scaling was measured.
 std::vector<Table> scaling_tables(const std::vector<report::Report>& reports);
 
+/// One table for each scene that was measured in several sizes, rays and precision: with what power of the number of objects
+/// time, tests, build and memory of each technique grow.
+std::vector<Table> growth_tables(const std::vector<report::Report>& reports);
+
+/// Of these all; empty where no scene was measured in enough sizes.
+std::string render_growth(const std::vector<report::Report>& reports, Format format);
+
 /// For each group with published figures, these beside ours; what was published of times, and whether ours agree.
 std::vector<Table> published_tables(const std::vector<report::Report>& reports);
 

@@ -69,6 +69,18 @@ TEST(Comparison, HasNoRatioToABaselineThatIsMissingOrNotTimed) {
   EXPECT_TRUE(find_cell(table, "bvh_sah", "trace_ns_per_ray").number);
 }
 
+TEST(Comparison, SaysWhereEmbreeWasBuiltWithAssertions) {
+  const auto says_so = Contains(HasSubstr("built with assertions"));
+  report::Report report = small_report();
+  EXPECT_THAT(comparison_tables({report}).back().notes, Not(says_so));
+  report.environment.packages["embree_assertions"] = "off";
+  EXPECT_THAT(comparison_tables({report}).back().notes, Not(says_so));
+  report.environment.packages["embree_assertions"] = "on";
+  EXPECT_THAT(comparison_tables({report}).back().notes, says_so);
+  std::erase_if(report.measurements, [](const auto& m) { return m.technique == kEmbree; });
+  EXPECT_THAT(comparison_tables({report}).back().notes, Not(says_so)) << "nothing is compared with it";
+}
+
 TEST(Comparison, ComparesWithTheFastestOfSeveralBaselinesAndSaysSo) {
   report::Report report = small_report();
   measurement(report, "embree").config = {{"robust", true}};

@@ -1,10 +1,15 @@
 #include "harness/baseline/embree_scene.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <boost/interprocess/file_mapping.hpp>
+#include <boost/interprocess/mapped_region.hpp>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 
 #include "harness/baseline/baselines.h"
 
@@ -50,6 +55,16 @@ std::string embree_version() {
   };
   return fmt::format("{}.{}.{}", number(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
                      number(RTC_DEVICE_PROPERTY_VERSION_MINOR), number(RTC_DEVICE_PROPERTY_VERSION_PATCH));
+}
+
+bool embree_has_assertions() {
+  Dl_info library{};
+  if (dladdr(reinterpret_cast<void*>(rtcNewDevice), &library) == 0) return false;
+  using namespace boost::interprocess;
+  const mapped_region file(file_mapping(library.dli_fname, read_only), read_only);
+  const std::string_view content(static_cast<const char*>(file.get_address()), file.get_size());
+  // Put together here, so as not to be found in this program where Embree is part of it.
+  return content.find(fmt::format("{}()", "ray.valid")) != std::string_view::npos;
 }
 
 EmbreeGeometry::EmbreeGeometry(RTCGeometryType type) : geometry_(rtcNewGeometry(embree_device(), type)) {

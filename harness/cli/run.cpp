@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "analysis/tables/comparison.h"
+#include "analysis/tables/wall_time.h"
 #include "harness/choose/choose.h"
 #include "harness/cli/commands.h"
 #include "harness/cli/long_run.h"
@@ -135,7 +136,8 @@ int run_command(const Options& given, const std::string& command_line) {
     // Written while the checkpoint is still there.
     report::write_report(report, output);
   }
-  fmt::print("{}\nReport: {}\n", analysis::render_comparison({report}, analysis::Format::text), output);
+  fmt::print("{}\nRun: {}\nReport: {}\n", analysis::render_comparison({report}, analysis::Format::text),
+             analysis::wall_time(report.run), output);
   if (!report.run.complete) return kInterrupted;
   return any_failure(report) ? kCheckFailed : 0;
 }

@@ -16,7 +16,7 @@ struct Options {
   std::vector<std::string> reports;
   std::string format = "text";
   analysis::PivotOptions pivot;
-  bool regret = false;
+  bool regret = false, growth = false;
 };
 
 /// Options that choose what is shown; each one asks for tables of one's own.
@@ -44,6 +44,25 @@ std::vector<CLI::Option*> add_choices(CLI::App& command, analysis::PivotOptions&
       command.add_flag("--mean", pivot.mean, "Geometric means over the columns, and rows sorted by them")};
 }
 
+/// What was asked for, rendered.
+std::string tables_of(const std::vector<report::Report>& reports, const Options& options,
+                      const std::vector<CLI::Option*>& choices) {
+  const analysis::Format format = analysis::kFormats.at(options.format);
+  if (options.regret) {
+    if (std::string tables = analysis::render_regret(reports, format); !tables.empty()) return tables;
+    throw InputError("no choice was measured beside its candidates; run auto with --regret does that");
+  }
+  if (options.growth) {
+    if (std::string tables = analysis::render_growth(reports, format); !tables.empty()) return tables;
+    throw InputError(
+        "no scene was measured in 3 sizes or more with rays of one kind; the suite scale does that");
+  }
+  const bool own =
+      std::any_of(choices.begin(), choices.end(), [](const CLI::Option* o) { return o->count() > 0; });
+  return own ? analysis::render(analysis::pivot_tables(reports, options.pivot), format)
+             : analysis::render_comparison(reports, format);
+}
+
 }  // namespace
 
 void add_table(CLI::App& program) {
@@ -55,21 +74,16 @@ void add_table(CLI::App& program) {
   const std::vector<CLI::Option*> choices = add_choices(*command, options->pivot);
   auto* regret = command->add_flag("--regret", options->regret,
                                    "Only what the choices of run auto cost beside the best");
-  for (CLI::Option* choice : choices) regret->excludes(choice);
+  auto* growth = command->add_flag("--growth", options->growth,
+                                   "Only how time, tests, build and memory grow with the number of objects, "
+                                   "where a scene has several sizes");
+  for (CLI::Option* choice : choices) regret->excludes(choice), growth->excludes(choice);
+  regret->excludes(growth);
   command->callback([options, choices] {
     require_known("metric", options->pivot.metrics, analysis::metric_keys());
     std::vector<report::Report> reports;
     for (const std::string& path : options->reports) reports.push_back(report::read_report(path));
-    const analysis::Format format = analysis::kFormats.at(options->format);
-    const bool own =
-        std::any_of(choices.begin(), choices.end(), [](const CLI::Option* o) { return o->count() > 0; });
-    const std::string tables = options->regret ? analysis::render_regret(reports, format)
-                               : own
-                                   ? analysis::render(analysis::pivot_tables(reports, options->pivot), format)
-                                   : analysis::render_comparison(reports, format);
-    if (options->regret && tables.empty())
-      throw InputError("no choice was measured beside its candidates; run auto with --regret does that");
-    fmt::print("{}", tables);
+    fmt::print("{}", tables_of(reports, *options, choices));
   });
 }
 

@@ -77,16 +77,18 @@ std::string git(const std::string& arguments) {
 report::Environment environment() {
   std::array<double, 1> load{};
   getloadavg(load.data(), 1);
-  return {
-      .cpu = value_of("/proc/cpuinfo", "model name", ':'),
-      .cores = static_cast<int>(std::thread::hardware_concurrency()),
-      .caches_bytes = caches(),
-      .governor = governor(),
-      .load = load[0],
-      .os = operating_system(),
-      .compiler = RAYSHOOT_COMPILER,
-      .flags = RAYSHOOT_FLAGS,
-      .packages = {{"embree", embree_version()}, {"benchmark", RAYSHOOT_BENCHMARK}, {"tbb", RAYSHOOT_TBB}}};
+  return {.cpu = value_of("/proc/cpuinfo", "model name", ':'),
+          .cores = static_cast<int>(std::thread::hardware_concurrency()),
+          .caches_bytes = caches(),
+          .governor = governor(),
+          .load = load[0],
+          .os = operating_system(),
+          .compiler = RAYSHOOT_COMPILER,
+          .flags = RAYSHOOT_FLAGS,
+          .packages = {{"embree", embree_version()},
+                       {"embree_assertions", embree_has_assertions() ? "on" : "off"},
+                       {"benchmark", RAYSHOOT_BENCHMARK},
+                       {"tbb", RAYSHOOT_TBB}}};
 }
 
 report::Run started_run(const std::string& command, std::uint64_t seed) {

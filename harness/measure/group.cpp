@@ -53,7 +53,7 @@ class GroupRun {
         observer_(observer),
         stopped_(stopped),
         all_threads_(static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))),
-        geometry_(input.scene, input.cone_sides, intersector_named(input.intersector), suite_.bounds) {
+        geometry_(compiled(input)) {
     geometry_.require_objects(input.scene.id);
     record_set_aside(report.scenes.back());
     take_sample();
@@ -73,6 +73,12 @@ class GroupRun {
   }
 
  private:
+  static Geometry<Real> compiled(const GroupInput& input) {
+    const auto compiling = input.phases.scope(Phase::generate);
+    return Geometry<Real>(input.scene, input.cone_sides, intersector_named(input.intersector),
+                          input.plan.suite.bounds);
+  }
+
   /// Structures are built once for all ray sets, so the sample is of them all.
   void take_sample() {
     std::vector<const RaySet*> sets;
@@ -106,6 +112,7 @@ class GroupRun {
 
   template <class Choose>
   std::vector<Built<Real>> build(const Choose& choose, const RecordedHits<Real>* recorded) {
+    const auto building = input_.phases.scope(Phase::build);
     std::vector<Built<Real>> built;
     for (const TechniqueChoice& technique : input_.plan.techniques) {
       if (stopped_() || !choose(technique)) continue;
@@ -121,7 +128,7 @@ class GroupRun {
   void measure(const PreparedRays& rays, const std::vector<Built<Real>>& searching) {
     const Batch<Real> batch(rays.set);
     announce(fmt::format("searching {} exhaustively", rays.set.id));
-    Oracle<Real> oracle(geometry_, batch, suite_.check_tests, suite_.seed, all_threads_);
+    Oracle<Real> oracle = oracle_of(batch);
     const RecordedHits<Real> recorded = oracle.recorded();
     const auto replaying = build(
         [&](const TechniqueChoice& technique) {
@@ -139,6 +146,11 @@ class GroupRun {
     if (!suite_.counts_only) time(cells, batch);
     compare_with_published(cells, rays.set);
     keep_complete(cells);
+  }
+
+  Oracle<Real> oracle_of(const Batch<Real>& batch) const {
+    const auto verifying = input_.phases.scope(Phase::verify);
+    return Oracle<Real>(geometry_, batch, suite_.check_tests, suite_.seed, all_threads_);
   }
 
   Cell<Real> new_cell(const Built<Real>& built, const RaySet& set) const {
@@ -159,6 +171,7 @@ class GroupRun {
   void grade(std::vector<Cell<Real>>& cells, const Batch<Real>& batch) {
     const std::size_t rays = batch.closest().size(), graded = std::min<std::size_t>(suite_.graded_rays, rays);
     if (graded == 0 || geometry_.has_placed()) return;
+    const auto grading = input_.phases.scope(Phase::grade);
     announce(fmt::format("grading {} answers exactly", graded));
     if (!exact_) exact_.emplace(geometry_);
     for (Cell<Real>& cell : cells) {
@@ -178,6 +191,7 @@ class GroupRun {
   }
 
   void verify(std::vector<Cell<Real>>& cells, const Batch<Real>& batch, Oracle<Real>& oracle) {
+    const auto verifying = input_.phases.scope(Phase::verify);
     std::vector<Statement<Real>> statements;
     std::vector<Cell<Real>*> judged;
     for (Cell<Real>& cell : cells) {
@@ -202,6 +216,7 @@ class GroupRun {
 
   void count_cell(Cell<Real>& cell, const Batch<Real>& batch) {
     if (stopped_() || !cell.timeable()) return;
+    const auto counting = input_.phases.scope(Phase::count);
     announce("counting " + cell.built->choice->spec);
     report::Measurement& measurement = cell.measurement;
     measurement.structure = record(cell.engine().structure());
@@ -235,6 +250,7 @@ class GroupRun {
       for (const int threads : thread_counts) passes.push_back(timed_pass(cell, batch, threads));
     }
     announce(fmt::format("timing {} techniques in turns", timed.size()));
+    const auto tracing = input_.phases.scope(Phase::trace);
     const auto times = time_interleaved(passes, stopped_);
     for (std::size_t i = 0; i < passes.size(); ++i) {
       report::Measurement& measurement = timed[i / thread_counts.size()]->measurement;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "harness/measure/phases.h"
 #include "harness/measure/run.h"
 
 namespace rayshoot {
@@ -14,6 +15,7 @@ struct PreparedRays {
 /// stay alive together while they are timed in turns.
 struct GroupInput {
   const Plan& plan;
+  Phases& phases;
   const Scene& scene;
   ConeSides cone_sides;
   std::string scalar;

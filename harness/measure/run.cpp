@@ -23,15 +23,18 @@ report::Bounds record(const Box<double>& box) {
   return {{box.lo.x, box.lo.y, box.lo.z}, {box.hi.x, box.hi.y, box.hi.z}};
 }
 
-report::Scene record(const LoadedScene& loaded) {
+report::Scene record(const LoadedScene& loaded, Phases& phases) {
   const Scene& scene = loaded.scene;
   report::Scene result{.id = scene.id,
                        .generator = loaded.generator,
                        .size = loaded.size,
                        .form = loaded.form,
                        .objects = scene.numbers(),
-                       .hash = scene_hash(scene),
                        .stiffness = stiffness(scene)};
+  {
+    const auto hashing = phases.scope(Phase::hash);
+    result.hash = scene_hash(scene);
+  }
   for (std::size_t kind = 0; kind < kObjectKindNames.size(); ++kind)
     result.counts[kObjectKindNames[kind]] = scene.counts()[kind];
   if (const Box<double> bounds = scene.bounds(); !bounds.empty()) result.bounds = record(bounds);
@@ -50,7 +53,8 @@ report::Scene record(const LoadedScene& loaded) {
   return result;
 }
 
-report::RaySet record(const RaySet& set, const std::string& scene) {
+report::RaySet record(const RaySet& set, const std::string& scene, Phases& phases) {
+  const auto hashing = phases.scope(Phase::hash);
   return {.id = fmt::format("{}/{}", scene, set.id),
           .scene = scene,
           .distribution = set.distribution,
@@ -72,24 +76,30 @@ report::RaySet record(const RaySet& set, const std::string& scene) {
 /// One scene after the other; of each, rays first and then its groups of cells.
 class Runner {
  public:
-  Runner(const Plan& plan, report::Report& report, RunObserver& observer,
+  Runner(const Plan& plan, report::Report& report, Phases& phases, RunObserver& observer,
          const std::function<bool()>& stopped)
-      : plan_(plan), report_(report), observer_(observer), stopped_(stopped) {}
+      : plan_(plan), report_(report), phases_(phases), observer_(observer), stopped_(stopped) {}
 
   void run_scene(const std::string& spec) {
     observer_.doing("loading " + spec);
-    const LoadedScene loaded = load_scene(spec);
-    report_.scenes.push_back(record(loaded));
+    const LoadedScene loaded = load(spec);
+    report_.scenes.push_back(record(loaded, phases_));
     const std::vector<PreparedRays> rays = prepare(loaded.scene);
     for (const ConeSides sides : {ConeSides::both, ConeSides::outside})
       for (const std::string& scalar : plan_.suite.scalars)
         for (const std::string& intersector : plan_.suite.intersectors)
-          run_group({plan_, loaded.scene, sides, scalar, intersector, {}}, rays);
+          run_group({plan_, phases_, loaded.scene, sides, scalar, intersector, {}}, rays);
   }
 
  private:
+  LoadedScene load(const std::string& spec) {
+    const auto generating = phases_.scope(Phase::generate);
+    return load_scene(spec);
+  }
+
   /// Generate all rays that the scene can have.
   std::vector<PreparedRays> prepare(const Scene& scene) {
+    const auto shooting = phases_.scope(Phase::rays);
     std::vector<PreparedRays> prepared;
     std::map<ConeSides, SceneTracer> tracers;
     for (const RaySpec& spec : plan_.rays) {
@@ -104,7 +114,7 @@ class Runner {
         rays.spec = &enough_.emplace_back(enough_rays(plan_, spec, scene, tracer, threads_, stopped_));
       }
       rays.set = make_rays(*rays.spec, scene, tracer, plan_.suite.seed);
-      report_.ray_sets.push_back(record(rays.set, scene.id));
+      report_.ray_sets.push_back(record(rays.set, scene.id, phases_));
     }
     return prepared;
   }
@@ -137,6 +147,7 @@ class Runner {
 
   const Plan& plan_;
   report::Report& report_;
+  Phases& phases_;
   RunObserver& observer_;
   const std::function<bool()>& stopped_;
   int threads_ = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -151,13 +162,15 @@ report::Report run(const Plan& plan, report::Run run, RunObserver& observer,
   report::Report report{.run = std::move(run), .environment = environment()};
   report.run.bounds = kBoundsRuleNames[static_cast<std::size_t>(plan.suite.bounds)];
   if (!plan.suite.published.empty()) report.run.published = plan.published.source;
-  Runner runner(plan, report, observer, stopped);
+  Phases phases;
+  Runner runner(plan, report, phases, observer, stopped);
   report.run.seconds = seconds_of([&] {
     for (const std::string& scene : plan.suite.scenes) {
       if (!stopped()) runner.run_scene(scene);
       if (!stopped()) observer.scene_done(report);
     }
   });
+  report.run.phase_seconds = phases.seconds();
   report.run.complete = !stopped();
   return report;
 }

@@ -31,6 +31,7 @@ Report joined(const std::vector<Report>& reports) {
   if (reports.empty()) throw ReportError("there is nothing to join");
   Report whole{.run = reports[0].run, .environment = reports[0].environment};
   whole.run.seconds = 0;
+  whole.run.phase_seconds.clear();
   std::set<std::string> scenes;
   for (const Report& part : reports) {
     require_alike(reports[0], part);
@@ -38,6 +39,7 @@ Report joined(const std::vector<Report>& reports) {
       if (!scenes.insert(scene.id).second)
         throw ReportError(fmt::format("two runs have the scene {}", scene.id));
     whole.run.seconds += part.run.seconds;
+    for (const auto& [phase, seconds] : part.run.phase_seconds) whole.run.phase_seconds[phase] += seconds;
     whole.run.complete &= part.run.complete;
     whole.run.git_dirty |= part.run.git_dirty;
     append(whole.scenes, part.scenes);

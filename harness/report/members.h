@@ -31,6 +31,7 @@ void members(T& run, Visitor& visitor) {
   visitor.required("command", run.command);
   visitor.required("started_utc", run.started_utc);
   visitor.required("seconds", run.seconds);
+  visitor.optional("phase_seconds", run.phase_seconds);
   visitor.required("git_commit", run.git_commit);
   visitor.required("git_dirty", run.git_dirty);
   visitor.required("seed", run.seed);

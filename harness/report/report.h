@@ -20,6 +20,9 @@ struct Run {
   std::string command;
   std::string started_utc;
   double seconds = 0;
+  /// What these seconds went into: generate, hash, rays, build, verify, count, grade, trace, other. Builds and traces are the
+  /// timed work.
+  std::map<std::string, double> phase_seconds;
   std::string git_commit;
   bool git_dirty = false;
   std::uint64_t seed = 1;

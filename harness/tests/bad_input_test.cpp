@@ -98,6 +98,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"spearman_above_1", {"validate", "a.json", "--min-spearman", "2"}, "--min-spearman"},
         BadInput{"unknown_metric", {"table", "a.json", "--metric", "build"}, "known: objects, ray_count"},
         BadInput{"unknown_dimension", {"table", "a.json", "--rows", "tecnique"}, "technique"},
+        BadInput{"growth_and_a_table_of_ones_own", {"table", "a.json", "--growth", "--mean"}, "--growth"},
+        BadInput{"growth_and_regret", {"table", "a.json", "--growth", "--regret"}, "--growth"},
         BadInput{"no_m_error", {"run", "--target-m-error", "0", "-o", "r.json"}, "--target-m-error"},
         BadInput{"auto_of_no_scene", {"run", "auto", "-o", "r.json"}, "run auto: which scenes?"},
         BadInput{

@@ -4,6 +4,7 @@
 #include "accel/tests/nasty_scenes.h"
 #include "accel/tests/scene_conformance.h"
 #include "harness/baseline/baselines.h"
+#include "harness/baseline/embree_scene.h"
 #include "scenes/io/load_scene.h"
 
 namespace rayshoot {
@@ -178,9 +179,9 @@ TEST(EmbreeUser, RoundsNothingAwayNextToTheOrigin) {
 
 // Embree ----------------------------------------------------------------------------------------------------
 
-/// Share of rays whose hits differ by more than rounding.
-double share_of_differing(const Variant& variant, const Geometry<float>& geometry,
-                          std::span<const Ray<float>> rays, std::span<const Hit<float>> known) {
+/// Number of rays whose hits differ by more than rounding.
+int differing_rays(const Variant& variant, const Geometry<float>& geometry, std::span<const Ray<float>> rays,
+                   std::span<const Hit<float>> known) {
   const auto engine = build(variant, geometry);
   const auto scratch = engine->scratch();
   std::vector<Hit<float>> hits(rays.size());
@@ -199,18 +200,24 @@ double share_of_differing(const Variant& variant, const Geometry<float>& geometr
       EXPECT_NEAR(geometry.hit_distance(hits[i].object, rays[i]), known[i].t, 1e-4f * known[i].t);
     }
   }
-  return differing / static_cast<double>(rays.size());
+  return differing;
+}
+
+double share_of_differing(const Variant& variant, const Geometry<float>& geometry,
+                          std::span<const Ray<float>> rays, std::span<const Hit<float>> known) {
+  return differing_rays(variant, geometry, rays, known) / static_cast<double>(rays.size());
 }
 
 TEST(Embree, AgreesWithExhaustiveSearchButForRounding) {
   for (const char* spec :
        {"balls:2", "balls:1/patches", "gears:1", "tetra:4", "rings:1", "tree:4", "mount:4"}) {
     const Geometry<float> geometry(load_scene(spec).scene);
-    const std::vector<Ray<float>> rays = lines(geometry, 2000);
+    const std::vector<Ray<float>> rays = lines(geometry, 2005);
     const std::vector<Hit<float>> known = exhaustive_hits<float>(geometry, rays);
     std::vector<Variant> variants = conformance::variants(baseline("embree"));
     std::erase_if(variants, [](const Variant& variant) { return variant.given.contains("coherent"); });
-    variants.push_back({&baseline("embree"), {{"mode", "stream"}, {"coherent", "on"}, {"spheres", "user"}}});
+    for (const char* mode : {"stream", "packet"})
+      variants.push_back({&baseline("embree"), {{"mode", mode}, {"coherent", "on"}, {"spheres", "user"}}});
     for (const Variant& variant : variants) {
       SCOPED_TRACE(fmt::format("{} on {}", variant.name(), spec));
       EXPECT_LE(share_of_differing(variant, geometry, rays, known), 0.002);
@@ -243,7 +250,7 @@ TEST(Embree, MissesWithNonsenseRays) {
   for (const auto& [first, last] :
        {std::pair{nan, 1.f}, {0.f, nan}, {-1.f, 1.f}, {3.f, 2.f}, {inf, inf}, {0.f, -1.f}})
     rays.push_back({.origin = {0, 0, 5}, .t_min = first, .direction = {0, 0, -1}, .t_max = last});
-  for (const char* mode : {"single", "stream"}) {
+  for (const char* mode : {"single", "stream", "packet"}) {
     const auto engine = build({&baseline("embree"), {{"mode", mode}}}, geometry);
     const auto scratch = engine->scratch();
     std::vector<Hit<float>> hits(rays.size(), Hit<float>{1, 1});
@@ -255,17 +262,35 @@ TEST(Embree, MissesWithNonsenseRays) {
   }
 }
 
+TEST(Embree, TracesAnyNumberOfRaysWithNonsenseAmongThem) {
+  for (const char* spec : {"mount:4", "rings:1"}) {
+    const Geometry<float> geometry(load_scene(spec).scene);
+    std::vector<Ray<float>> rays = lines(geometry, 35);
+    for (std::size_t i = 0; i < rays.size(); i += 3) rays[i].origin.y = kMiss<float>;
+    const std::vector<Hit<float>> known = exhaustive_hits<float>(geometry, rays);
+    const std::span<const Ray<float>> all = rays;
+    for (const char* mode : {"single", "stream", "packet"})
+      for (std::size_t count = 0; count <= rays.size(); ++count) {
+        SCOPED_TRACE(fmt::format("{} rays, mode={} on {}", count, mode, spec));
+        EXPECT_EQ(differing_rays({&baseline("embree"), {{"mode", mode}}}, geometry, all.first(count), known),
+                  0);
+      }
+  }
+}
+
 TEST(Embree, IntervalsAreOpenAtTheirStartAndClosedAtTheirEnd) {
   SceneBuilder builder;
   builder.triangle({-1, -1, 0}, {3, -1, 0}, {-1, 3, 0});
   const Geometry<float> geometry(std::move(builder).finish());
   const std::vector<Ray<float>> rays{{.origin = {0, 0, 2}, .t_min = 2, .direction = {0, 0, -1}},
                                      {.origin = {0, 0, 2}, .direction = {0, 0, -1}, .t_max = 2}};
-  const auto engine = build({&baseline("embree"), {}}, geometry);
-  std::vector<Hit<float>> hits(2);
-  engine->closest(rays, hits, *engine->scratch());
-  EXPECT_EQ(hits[0], Hit<float>{});
-  EXPECT_EQ(hits[1], (Hit<float>{2, 0}));
+  for (const char* mode : {"single", "stream", "packet"}) {
+    const auto engine = build({&baseline("embree"), {{"mode", mode}}}, geometry);
+    std::vector<Hit<float>> hits(2);
+    engine->closest(rays, hits, *engine->scratch());
+    EXPECT_EQ(hits[0], Hit<float>{}) << mode;
+    EXPECT_EQ(hits[1], (Hit<float>{2, 0})) << mode;
+  }
 }
 
 TEST(Embree, FlushesDenormalNumbersOnlyWhenAskedAndOnlyWhileTracing) {
@@ -296,9 +321,33 @@ TEST(Embree, BuildsAnotherTreeForEveryQuality) {
   EXPECT_EQ(bytes.size(), 3u);
 }
 
-TEST(Embree, RefusesCoherenceWithoutStreams) {
+TEST(Embree, RefusesCoherenceOfSingleRays) {
   const Geometry<float> geometry(load_scene("balls:1").scene);
   EXPECT_THROW(build({&baseline("embree"), {{"coherent", "on"}}}, geometry), InputError);
+}
+
+/// A ray that an assertion of Embree's forbids ends a program that has them.
+TEST(EmbreeDeathTest, AbortsWhereItHasAssertions) {
+  const auto trace_nonsense = [] {
+    EmbreeGeometry mesh(RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = mesh.buffer<Vec3<float>>(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3);
+    vertices[0] = {0, 0, 0}, vertices[1] = {1, 0, 0}, vertices[2] = {0, 1, 0};
+    *mesh.buffer<std::array<unsigned, 3>>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 1) = {0, 1, 2};
+    EmbreeScene scene(RTC_BUILD_QUALITY_MEDIUM, false);
+    scene.attach(mesh, 0);
+    scene.build();
+    RTCRayHit ray{.ray = {.org_x = std::numeric_limits<float>::quiet_NaN(), .dir_x = 1, .tfar = 1},
+                  .hit = {}};
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene.get(), &context, &ray);
+    std::_Exit(0);
+  };
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  if (embree_has_assertions())
+    EXPECT_DEATH(trace_nonsense(), "Assertion");
+  else
+    EXPECT_EXIT(trace_nonsense(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(Baselines, AreListedWithTheVersionOfEmbree) {

@@ -2,7 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+#include <thread>
+
 #include "altered_technique.h"
+#include "harness/measure/building.h"
+#include "harness/measure/phases.h"
 
 namespace rayshoot::test {
 namespace {
@@ -109,6 +114,40 @@ TEST_F(RunTest, OneWrongTechniqueDoesNotTouchTheOthers) {
   EXPECT_EQ(report.measurements[0].verdict.status, Status::wrong);
   EXPECT_EQ(report.measurements[1].verdict.status, Status::ok);
   EXPECT_THAT(report.measurements[1].trace_ns, SizeIs(3));
+}
+
+TEST_F(RunTest, PhasesAddUpToTheWallTime) {
+  plan_.suite.graded_rays = 5;
+  add(technique_entry("exhaustive"));
+  const report::Run run = this->run().run;
+  std::set<std::string> names;
+  double sum = 0;
+  for (const auto& [phase, seconds] : run.phase_seconds) {
+    EXPECT_GT(seconds, 0) << phase;
+    names.insert(phase), sum += seconds;
+  }
+  EXPECT_EQ(names, (std::set<std::string>(kPhaseNames.begin(), kPhaseNames.end())));
+  EXPECT_GE(sum, run.seconds);
+}
+
+TEST(Phases, StandStillWhileInnerOnesLast) {
+  const auto sleep = [] { std::this_thread::sleep_for(std::chrono::milliseconds(5)); };
+  std::map<std::string, double> seconds;
+  const double in_all = seconds_of([&] {
+    Phases phases;
+    const auto outer = phases.scope(Phase::build);
+    sleep();
+    {
+      const auto inner = phases.scope(Phase::count);
+      sleep();
+    }
+    sleep();
+    seconds = phases.seconds();
+  });
+  EXPECT_GE(seconds.at("build"), 0.010);
+  EXPECT_GE(seconds.at("count"), 0.005);
+  EXPECT_LE(seconds.at("build") + seconds.at("count") + seconds.at("other"), in_all);
+  EXPECT_FALSE(seconds.contains("trace"));
 }
 
 TEST_F(RunTest, CountsOnlyTakesNoTime) {

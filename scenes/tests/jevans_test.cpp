@@ -183,5 +183,58 @@ TEST(Stadium, IsRatioTimesAsLongAsTheCupIsHigh) {
   EXPECT_GT(Part(scene, [](const Vec3d& p) { return length(p) < 1.2; }).share, 0.975);
 }
 
+Vec3d tip(const Triangle<double>& sliver) { return sliver.c - (sliver.a + sliver.b) * 0.5; }
+
+TEST(Hair, HasFiveHundredSliversTimesTheSquareOfItsSize) {
+  EXPECT_EQ(load_scene("hair").scene.triangles.size(), 200'000u);
+  for (const std::uint32_t size : {1u, 2u, 7u}) {
+    const Scene scene = load_scene(fmt::format("hair:{}", size)).scene;
+    EXPECT_EQ(scene.size(), 500 * size * size);
+    EXPECT_EQ(scene.triangles.size(), scene.size());
+    EXPECT_EQ(scene.groups.size(), 1 + 5 * size + 50 * size * size) << "all, bands, locks";
+  }
+  EXPECT_EQ(load_scene("hair:2(width=0.01)").scene.id, "hair:2/curves(width=0.01)");
+}
+
+TEST(Hair, IsLongAndThin) {
+  for (const double width : {0.001, 0.02}) {
+    double widths = 0, lengths = 0;
+    const Scene scene = load_scene(fmt::format("hair:5(width={})", width)).scene;
+    for (const Triangle<double>& sliver : scene.triangles) {
+      ASSERT_GE(length(tip(sliver)), 0.2 * (1 - 1e-12));
+      ASSERT_LE(length(tip(sliver)), 0.7 * (1 + 1e-12));
+      ASSERT_NEAR(length(sliver.b - sliver.a), width, 0.25 * width * (1 + 1e-9));
+      ASSERT_NEAR(dot(sliver.b - sliver.a, tip(sliver)), 0, 1e-12);
+      widths += length(sliver.b - sliver.a), lengths += length(tip(sliver));
+    }
+    EXPECT_NEAR(widths / static_cast<double>(scene.size()), width, 0.01 * width);
+    EXPECT_NEAR(lengths / static_cast<double>(scene.size()), 0.45, 0.01);
+  }
+}
+
+TEST(Hair, StandsEvenlyOnTheUnitSphereAndLeansOutwards) {
+  const Scene scene = load_scene("hair").scene;
+  Vec3d mean{};
+  for (const Triangle<double>& sliver : scene.triangles) {
+    const Vec3d root = (sliver.a + sliver.b) * 0.5;
+    ASSERT_NEAR(length(root), 1, 1e-9);
+    ASSERT_GT(dot(normalized(tip(sliver)), root), 0.3);
+    mean += root * (1.0 / static_cast<double>(scene.size()));
+  }
+  EXPECT_LT(length(mean), 1e-4);
+  EXPECT_LT(volume_holding(scene, 0.9) / volume_holding(scene, 0.5), 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(scene.bounds().lo[axis], -1.68, 0.02);
+    EXPECT_NEAR(scene.bounds().hi[axis], 1.68, 0.02);
+  }
+}
+
+TEST(Hair, IsTheSameEveryTime) {
+  const auto hash = [](const char* spec) { return scene_hash(load_scene(spec).scene); };
+  EXPECT_EQ(hash("hair:3"), hash("hair:3"));
+  EXPECT_NE(hash("hair:3"), hash("hair:4"));
+  EXPECT_NE(hash("hair:3"), hash("hair:3(width=0.002)"));
+}
+
 }  // namespace
 }  // namespace rayshoot

@@ -11,6 +11,7 @@ inline report::Report full_report() {
                 .command = "rayshoot run quick --seed 7",
                 .started_utc = "2025-01-02T03:04:05Z",
                 .seconds = 1.25,
+                .phase_seconds = {{"trace", 0.75}, {"other", 0.5}},
                 .git_commit = "0123456789abcdef",
                 .git_dirty = true,
                 .seed = 18446744073709551615u,

@@ -222,6 +222,7 @@ TEST(Join, PutsRunsOfOtherScenesTogether) {
   const Report whole = joined({first, second});
   EXPECT_EQ(whole.run.id, first.run.id);
   EXPECT_EQ(whole.run.seconds, 2 * first.run.seconds);
+  EXPECT_EQ(whole.run.phase_seconds, (std::map<std::string, double>{{"trace", 1.5}, {"other", 1}}));
   EXPECT_FALSE(whole.run.complete);
   EXPECT_EQ(whole.scenes.size(), 2u);
   EXPECT_EQ(whole.ray_sets.size(), 2u);
