@@ -15,6 +15,9 @@ using Hull = std::vector<Vec3d>;
 
 /// A sliver's box is so many times as large as its two sides. A triangle in a cube's diagonal plane comes to 4.
 constexpr double kVoid = 32;
+/// Nothing is cut unless a uniformly distributed ray meets the boxes of so many slivers on its way through the scene:
+/// pieces take memory, and where fewer are met, as in tessellated cones, to fetch them costs more than they save.
+constexpr double kMetByRay = 256;
 /// Pieces of one object. A hair that is cut into 64 has but a 64th of the surface of its box left.
 constexpr int kMostPieces = 64;
 
@@ -94,12 +97,12 @@ class Cutter {
 template <class Real>
 std::optional<SurfaceMargin<Real>> split_slivers(const Geometry<Real>& geometry, double budget,
                                                  std::vector<BoxedObject<Real>>& objects) {
-  // Measure how much void each object's box holds.
+  // Measure how much void each object's box holds; by equation (2) that is how often rays meet it.
   std::vector<double> areas(objects.size());
   tbb::parallel_for(std::size_t{0}, objects.size(),
                     [&](std::size_t i) { areas[i] = void_area(geometry, objects[i]); });
-  const bool any = std::any_of(areas.begin(), areas.end(), [](double area) { return area > 0; });
-  if (!any || budget == 0) return std::nullopt;
+  const double met = std::accumulate(areas.begin(), areas.end(), 0.0) / geometry.bounds().surface_area();
+  if (!(met > kMetByRay) || budget == 0) return std::nullopt;
 
   // Share the budget out.
   const Shares shares(areas, budget * static_cast<double>(objects.size()));

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <utility>
 
 namespace rayshoot {
 
 namespace {
 
-constexpr int kBits = 24, kBitsAtOnce = 12;
+/// Along each axis. More of either made no difference of note.
+constexpr int kOriginBits = 6, kDirectionBits = 2;
+constexpr int kBits = 3 * (kOriginBits + kDirectionBits), kBitsAtOnce = 12;
 
 /// Ten bits, each followed by two zeros.
 std::uint32_t spread(std::uint32_t bits) {
@@ -19,7 +20,7 @@ std::uint32_t spread(std::uint32_t bits) {
   return (bits | bits << 2) & 0x09249249;
 }
 
-/// A number between 0 and 1 in cells; what lies beside, or is no number, in the nearest or any of them.
+/// The cell of a number between 0 and 1; of what lies beside the nearest, of what is no number the first.
 std::uint32_t cell(float position, int bits) {
   const auto cells = static_cast<float>(1 << bits);
   return static_cast<std::uint32_t>(std::min(std::max(0.0f, position * cells), cells - 1));
@@ -33,28 +34,15 @@ std::uint32_t morton(const Vec3<float>& position, int bits) {
 }  // namespace
 
 std::span<const std::uint32_t> RayOrder::sorted(std::span<const Ray<float>> rays, const Box<float>& bounds) {
-  static const int mode = std::getenv("RO") ? std::atoi(std::getenv("RO")) : 0;
   keyed_.resize(rays.size()), other_.resize(rays.size()), order_.resize(rays.size());
   const Vec3<float> extent = bounds.extent();
   Vec3<float> scale;
   for (int axis = 0; axis < 3; ++axis) scale[axis] = extent[axis] > 0 ? 1 / extent[axis] : 0;
   for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-    const Vec3<float>&o = rays[ray].origin, &d = rays[ray].direction;
-    Vec3<float> from = o - bounds.lo;
-    for (int axis = 0; axis < 3; ++axis) from[axis] *= scale[axis];
-    const std::uint32_t octant = static_cast<std::uint32_t>((d.x < 0) + 2 * (d.y < 0) + 4 * (d.z < 0));
-    const float longest = 0.5f / max_abs(d);
-    const Vec3<float> to{d.x * longest + 0.5f, d.y * longest + 0.5f, d.z * longest + 0.5f};
-    std::uint32_t key;
-    switch (mode) {
-      case 0: key = morton(from, 7) << 3 | octant; break;
-      case 1: key = octant << 21 | morton(from, 7); break;
-      case 2: key = morton(from, 6) << 6 | morton(to, 2); break;
-      case 3: key = morton(from, 4) << 12 | octant << 9 | (morton(from, 7) & 511); break;
-      case 4: key = morton(from, 5) << 9 | morton(to, 3); break;
-      case 5: key = morton(to, 2) << 18 | morton(from, 6); break;
-      default: key = morton(from, 8); break;
-    }
+    Vec3<float> from = rays[ray].origin - bounds.lo, to = rays[ray].direction;
+    const float half = 0.5f / max_abs(to);
+    for (int axis = 0; axis < 3; ++axis) from[axis] *= scale[axis], to[axis] = to[axis] * half + 0.5f;
+    const std::uint32_t key = morton(from, kOriginBits) << 3 * kDirectionBits | morton(to, kDirectionBits);
     keyed_[ray] = {key, static_cast<std::uint32_t>(ray)};
   }
   for (int bit = 0; bit < kBits; bit += kBitsAtOnce) sort_by(bit);

@@ -45,7 +45,8 @@ struct WideBatch {
       trace(order[i]);
     }
   }
-  /// Whether successive rays take much the same way: looked at in 64 places, the directions of most neighbours differ
+  bool is_sorted() const { return !order.empty(); }
+  /// Whether successive rays, as they stand, take much the same way: looked at in 64 places, the directions of most neighbours differ
   /// by less than a tenth of their length.
   bool is_coherent() const;
 };

@@ -42,7 +42,7 @@ struct WideSearch {
   template <class Search>
   static void suited(const WideScene& scene, const WideBatch& batch, const Search& search) {
     const auto with_manner = [&](auto others) {
-      if (batch.is_coherent()) return search(others, WideCoherent<Isa>{});
+      if (batch.is_sorted() || batch.is_coherent()) return search(others, WideCoherent<Isa>{});
       search(others, WideIncoherent<Isa, float>{scene.tree.nodes.data(), scene.triangles.begin(),
                                                 WideTriangles::kBytes});
     };
