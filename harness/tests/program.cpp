@@ -76,17 +76,38 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::filesy
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
 }
 
-Outcome interrupt_program(const std::vector<std::string>& arguments, const std::string& sign,
-                          const std::filesystem::path& directory, int signal) {
+namespace {
+
+/// Run the program, and send it a signal when `wait`, which is told its errors and its process, says so.
+template <class Wait>
+Outcome signal_program(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
+                       int signal, const Wait& wait) {
   const TemporaryFolder streams;
   const std::string output = streams.path() / "output", errors = streams.path() / "errors";
   const pid_t process = fork();
   if (process < 0) throw std::runtime_error("no process");
   if (process == 0) become_program(arguments, directory, output, errors);
-  if (wait_for(sign, errors, process)) kill(process, signal);
+  if (wait(errors, process)) kill(process, signal);
   int status = 0;
   waitpid(process, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
+}
+
+}  // namespace
+
+Outcome interrupt_program(const std::vector<std::string>& arguments, const std::string& sign,
+                          const std::filesystem::path& directory, int signal) {
+  return signal_program(arguments, directory, signal, [&](const std::string& errors, pid_t process) {
+    return wait_for(sign, errors, process);
+  });
+}
+
+Outcome kill_program(const std::vector<std::string>& arguments, std::chrono::milliseconds after,
+                     const std::filesystem::path& directory) {
+  return signal_program(arguments, directory, SIGKILL, [&](const std::string&, pid_t) {
+    std::this_thread::sleep_for(after);
+    return true;
+  });
 }
 
 }  // namespace rayshoot::test
