@@ -63,8 +63,8 @@ std::optional<Plot> growth_plot(std::map<std::string, Curve> curves, const Growt
   return Plot{
       words.name, words.title,
       fmt::format("Lines are powers of {}, fitted to the logarithms; beside the names the exponents, with "
-                  "Student's 95 % intervals.",
-                  words.over),
+                  "Student's 95 % intervals.{}{}",
+                  words.over, words.note.empty() ? "" : " ", words.note),
       chart.svg().element(words.title)};
 }
 

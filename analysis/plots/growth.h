@@ -26,6 +26,8 @@ struct GrowthWords {
   std::string x, y;
   /// What the lines are powers of.
   std::string over;
+  /// What must be known besides; may be empty.
+  std::string note{};
 };
 
 /// Curves by the names of their techniques on logarithmic axes, each with the power that fits it and its exponent. Curves

@@ -17,8 +17,8 @@ namespace {
 
 /// Fewer stiffnesses say nothing about growth.
 constexpr std::size_t kLeastScenes = 3;
-/// More cases of the numerical suite than this are too many to look at.
-constexpr std::size_t kMostCases = 6;
+/// More kinds of rays, or cases of the numerical suite, than this are too many to look at.
+constexpr std::size_t kMostFamilies = 6;
 
 struct WorkKind {
   const char *name, *words;
@@ -68,32 +68,40 @@ Families of_gradings(const std::vector<report::Report>& reports, const WorkKind&
   return result;
 }
 
-void append(PlotSet& set, const Families& families, const WorkKind& kind, std::size_t most) {
+/// Draws the first families and says how many more there are.
+std::size_t append(PlotSet& set, const Families& families, const WorkKind& kind, const std::string& note) {
+  std::size_t drawn = 0, more = 0;
   for (const auto& [family, curves] : families) {
     std::set<std::string> labels;
     for (const auto& [label, curve] : curves) labels.insert(label);
-    const std::string name = fmt::format("stiffness-{}-{}", kind.name, file_name_of(family));
     auto plot =
         growth_plot(curves,
-                    {.name = name,
+                    {.name = fmt::format("stiffness-{}-{}", kind.name, file_name_of(family)),
                      .title = fmt::format("{} over the stiffness of the scene: {}", kind.words, family),
                      .x = "stiffness κ: diagonal of the scene over its smallest feature",
                      .y = fmt::format("{} per ray", kind.words),
-                     .over = "κ"},
+                     .over = "κ",
+                     .note = note},
                     SeriesStyles(labels), kLeastScenes);
-    if (plot && most-- > 0) set.plots.push_back(std::move(*plot));
-    if (most == 0) return;
+    if (!plot) continue;
+    if (drawn++ < kMostFamilies)
+      set.plots.push_back(std::move(*plot));
+    else
+      ++more;
   }
+  return more;
 }
 
 }  // namespace
 
 PlotSet stiffness_work_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports) {
   PlotSet set{.kind = "Work against stiffness"};
+  std::size_t more = 0;
   for (const WorkKind& kind : kWork) {
-    append(set, of_scenes(groups, kind), kind, kMostCases);
-    append(set, of_gradings(reports, kind), kind, kMostCases);
+    more += append(set, of_scenes(groups, kind), kind, "The scenes differ in more than their stiffness.");
+    more += append(set, of_gradings(reports, kind), kind, "");
   }
+  if (more > 0) set.left_out = fmt::format("{} more kinds of rays and cases of the numerical suite", more);
   if (set.plots.empty())
     set.left_out =
         fmt::format("no work was counted in {} scenes or more of different stiffness", kLeastScenes);

@@ -43,14 +43,19 @@ std::string contents(const std::filesystem::path& path) {
   _exit(127);
 }
 
-/// Wait until a file has `sign` in it, or for the end of a process; true when that has not ended.
-bool wait_for(const std::string& sign, const std::filesystem::path& file, pid_t process) {
+bool has_ended(pid_t process) {
   siginfo_t ended{};
+  return waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         ended.si_pid != 0;
+}
+
+/// Wait until something is so, or for the end of a process; true when that has not ended.
+template <class Condition>
+bool wait_until(const Condition& condition, pid_t process) {
   do {
-    if (contents(file).find(sign) != std::string::npos) return true;
+    if (condition()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  } while (waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-           ended.si_pid == 0);
+  } while (!has_ended(process));
   return false;
 }
 
@@ -98,15 +103,15 @@ Outcome signal_program(const std::vector<std::string>& arguments, const std::fil
 Outcome interrupt_program(const std::vector<std::string>& arguments, const std::string& sign,
                           const std::filesystem::path& directory, int signal) {
   return signal_program(arguments, directory, signal, [&](const std::string& errors, pid_t process) {
-    return wait_for(sign, errors, process);
+    return wait_until([&] { return contents(errors).find(sign) != std::string::npos; }, process);
   });
 }
 
 Outcome kill_program(const std::vector<std::string>& arguments, std::chrono::milliseconds after,
                      const std::filesystem::path& directory) {
-  return signal_program(arguments, directory, SIGKILL, [&](const std::string&, pid_t) {
-    std::this_thread::sleep_for(after);
-    return true;
+  const auto moment = std::chrono::steady_clock::now() + after;
+  return signal_program(arguments, directory, SIGKILL, [&](const std::string&, pid_t process) {
+    return wait_until([&] { return std::chrono::steady_clock::now() >= moment; }, process);
   });
 }
 
