@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "analysis/plots/chart.h"
@@ -13,10 +14,13 @@ namespace rayshoot::analysis {
 
 namespace {
 
+/// Two digits after the point, and no minus sign before nothing.
+std::string hundredths(double value) { return fmt::format("{:.2f}", std::round(100 * value) / 100 + 0.0); }
+
 std::string exponent_in_words(const PowerLaw& law) {
   const auto& [value, interval] = law.exponent;
-  return interval ? fmt::format("{:.2f} [{:.2f}, {:.2f}]", value, interval->low, interval->high)
-                  : fmt::format("{:.2f}", value);
+  if (!interval) return hundredths(value);
+  return fmt::format("{} [{}, {}]", hundredths(value), hundredths(interval->low), hundredths(interval->high));
 }
 
 void draw(Chart& chart, const std::string& label, const Curve& curve, MarkerStyle style,

@@ -173,6 +173,14 @@ TEST(ObjectScaling, FindsTheExponents) {
   EXPECT_THAT(set.plots[1].svg, HasSubstr("bvh_sah: 1.00 [1.00, 1.00]"));
 }
 
+TEST(ObjectScaling, HasNoMinusSignBeforeNothing) {
+  report::Report report = growing();
+  for (std::size_t i = 0; i < report.measurements.size(); ++i)
+    report.measurements[i].trace_ns = {1000 - static_cast<double>(i)};
+  const auto all = groups_of(report);
+  EXPECT_THAT(object_scaling_plots(all).plots.at(0).svg, HasSubstr("bvh_sah: 0.00 [0.00, 0.00]"));
+}
+
 TEST(ObjectScaling, NeedsThreeSizes) {
   report::Report report = growing();
   report.measurements.resize(2);
