@@ -22,7 +22,7 @@ using report::Grading;
 using report::Measurement;
 using report::Report;
 
-constexpr double kLeastBuildNs = 1e5;
+constexpr double kLeastBuildNs = 5e5;
 
 std::string group_title(const Measurement& cell) {
   return title_of(

@@ -61,8 +61,8 @@ struct Comparison {
 /// compared exactly, times by ranks (statistics/rank_sum.h). A cell is slower when its time grew by more than the
 /// tolerance with a chance of error of 2.5 %, corrected for the whole table after Benjamini and Hochberg, and likewise
 /// faster. So where nothing became slower a gate stops in one of forty comparisons, and where something did, what it names
-/// is right but for a fortieth part. Then the cell's own 95 % interval excludes the tolerance too. Builds of less than 0.1 ms
-/// are shown and not judged: a page fault is as long. Throws ReportError when nothing can be compared, or when the
+/// is right but for a fortieth part. Then the cell's own 95 % interval excludes the tolerance too. Builds of less than 0.5 ms
+/// are shown and not judged: whether they meet memory that was used before is as much. Throws ReportError when nothing can be compared, or when the
 /// technique to compare relative to is missing.
 Comparison compare(const report::Report& before, const report::Report& after, const CompareOptions& options);
 

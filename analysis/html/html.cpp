@@ -33,6 +33,7 @@ th.words{text-align:left}td.words{text-align:left;white-space:normal;overflow-wr
 ul.notes{font-size:.84rem;color:var(--faint);margin:.2rem 0 1rem;padding-left:1.2rem;max-width:60rem;overflow-wrap:anywhere}
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,30rem),1fr));gap:1.2rem}
 figure{margin:0;break-inside:avoid}figure h3{margin:.2rem 0}figcaption{font-size:.84rem;color:var(--faint)}
+img.picture{display:block;max-width:100%;height:auto}
 svg.plot{display:block;width:100%;height:auto;max-width:44rem}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1rem;font-size:.88rem}dt{font-weight:600}dd{margin:0;grid-column:2}
 @media (max-width:34rem){body{padding:.6rem}th:first-child{max-width:8.5rem}th,td{padding:.16rem .35rem}dl{grid-template-columns:1fr}dd{grid-column:1;margin:0 0 .4rem 1rem}}
@@ -71,7 +72,7 @@ std::string head_of(const Page& page) {
     result += fmt::format(
         "<th scope=\"col\"{}{}>{}<span>{}</span></th>", column.style == Style::text ? " class=\"words\"" : "",
         column.meaning.empty() ? "" : fmt::format(" title=\"{}\"", xml_escaped(column.meaning)),
-        xml_escaped(column.title), xml_escaped(column.unit));
+        xml_escaped(column.title), column.unit.empty() ? "&nbsp;" : xml_escaped(column.unit));
   return result + "</tr></thead>\n";
 }
 
@@ -97,6 +98,19 @@ std::string row_of(const Page& page, const std::vector<std::string>& cells) {
   return result + "</tr>\n";
 }
 
+std::string base64(const std::string& bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned group = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      group = group << 8 | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0);
+    for (std::size_t j = 0; j < 4; ++j) text += j <= count ? digits[group >> (18 - 6 * j) & 63] : '=';
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string html_table(const Table& table) {
@@ -113,6 +127,13 @@ std::string html_table(const Table& table) {
 std::string html_figure(const Plot& plot) {
   return fmt::format("<figure>\n<h3>{}</h3>\n{}<figcaption>{}</figcaption>\n</figure>\n",
                      xml_escaped(plot.title), plot.svg, xml_escaped(plot.caption));
+}
+
+std::string html_picture(const std::string& name, const std::string& png) {
+  return fmt::format(
+      "<figure>\n<h3>{0}</h3>\n<img class=\"picture\" alt=\"{0}\" src=\"data:image/png;base64,{1}\">\n"
+      "<figcaption>Drawn by rayshoot render, not out of the report.</figcaption>\n</figure>\n",
+      xml_escaped(name), base64(png));
 }
 
 std::string html_legend(const std::vector<Table>& tables) {

@@ -15,6 +15,9 @@ std::string html_table(const Table& table);
 /// A plot with its caption.
 std::string html_figure(const Plot& plot);
 
+/// A picture in the format PNG, as part of the page, under its name.
+std::string html_picture(const std::string& name, const std::string& png);
+
 /// What the columns of tables mean.
 std::string html_legend(const std::vector<Table>& tables);
 

@@ -23,12 +23,18 @@ using report::Report;
 
 class PageBuilder {
  public:
-  explicit PageBuilder(const std::vector<Report>& reports) : reports_(reports) {
+  PageBuilder(const std::vector<Report>& reports, const std::vector<Picture>& pictures)
+      : reports_(reports), pictures_(pictures) {
     for (const Report& report : reports) {
       auto of_report = groups(report);
       std::move(of_report.begin(), of_report.end(), std::back_inserter(groups_));
     }
-    plots_ = all_plots(groups_);
+    plots_ = all_plots(groups_, reports);
+    if (pictures.empty())
+      plots_.push_back({.kind = "Heat maps of work per pixel",
+                        .left_out =
+                            "reports hold no pixels; rayshoot render draws such maps, and rayshoot report "
+                            "--picture FILE shows them here"});
     make_names_unique();
   }
 
@@ -36,6 +42,7 @@ class PageBuilder {
     add("summary", "Summary", html_paragraphs(summary()));
     add_tables("overview", "All scenes together", overview_tables(reports_));
     add_plots();
+    add_pictures();
     add_tables("comparison", "Scene by scene", comparison_tables(reports_));
     add_tables("threads", "Threads", scaling_tables(reports_));
     add_tables("errors", "Error against run time", work_precision_tables(reports_));
@@ -101,6 +108,12 @@ class PageBuilder {
     if (!figures.empty()) add("plots", "Plots", "<div class=\"figures\">\n" + figures + "</div>\n");
   }
 
+  void add_pictures() {
+    std::string figures;
+    for (const Picture& picture : pictures_) figures += html_picture(picture.name, picture.png);
+    if (!figures.empty()) add("pictures", "Pictures", "<div class=\"figures\">\n" + figures + "</div>\n");
+  }
+
   std::vector<std::pair<std::string, std::string>> plot_files() const {
     std::vector<std::pair<std::string, std::string>> files;
     for (const PlotSet& set : plots_)
@@ -109,6 +122,7 @@ class PageBuilder {
   }
 
   const std::vector<Report>& reports_;
+  const std::vector<Picture>& pictures_;
   std::vector<Group> groups_;
   std::vector<PlotSet> plots_;
   std::vector<Section> sections_;
@@ -118,6 +132,8 @@ class PageBuilder {
 
 }  // namespace
 
-ReportPage report_page(const std::vector<Report>& reports) { return PageBuilder(reports).build(); }
+ReportPage report_page(const std::vector<Report>& reports, const std::vector<Picture>& pictures) {
+  return PageBuilder(reports, pictures).build();
+}
 
 }  // namespace rayshoot::analysis

@@ -8,6 +8,11 @@
 
 namespace rayshoot::analysis {
 
+/// A picture in the format PNG, such as `rayshoot render` draws, and what it is called.
+struct Picture {
+  std::string name, png;
+};
+
 /// All that reports say, on one page, and its plots as files of their own.
 struct ReportPage {
   std::string html;
@@ -15,7 +20,8 @@ struct ReportPage {
   std::vector<std::pair<std::string, std::string>> plots;
 };
 
-/// Summary in words, comparison, plots, tables, provenance, and what was left out.
-ReportPage report_page(const std::vector<report::Report>& reports);
+/// Summary in words, comparison, plots, tables, provenance, and what was left out; pictures where they are given, since
+/// reports hold no pixels.
+ReportPage report_page(const std::vector<report::Report>& reports, const std::vector<Picture>& pictures = {});
 
 }  // namespace rayshoot::analysis

@@ -1,5 +1,7 @@
 #include "analysis/plots/chart.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +18,16 @@ constexpr double kLineHeight = 16;
 constexpr double kSmallCharacter = 6.3;
 
 }  // namespace
+
+std::string bands_in_words(const std::vector<Point>& values) {
+  const auto within = [&](double factor) {
+    return std::count_if(values.begin(), values.end(), [&](const Point& value) {
+      return value.y <= factor * value.x && value.x <= factor * value.y;
+    });
+  };
+  return fmt::format("Shaded: off by at most {:g} times ({} of {}) and {:g} times ({} of {}).", kNear,
+                     within(kNear), values.size(), kFar, within(kFar), values.size());
+}
 
 bool Chart::Box::meets(const Box& other) const {
   return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
@@ -57,6 +69,20 @@ void Chart::point(Point value, MarkerStyle style, const std::string& tip) {
 void Chart::equality() {
   const double low = std::max(x_.low(), y_.low()), high = std::min(x_.high(), y_.high());
   if (low < high) svg_.line(at(low, low), at(high, high), "reference");
+}
+
+void Chart::band(double factor) {
+  const double low = std::max(x_.low(), y_.low()), high = std::min(x_.high(), y_.high());
+  if (low * factor >= high) return;
+  svg_.polygon({at(low, low), at(low, low * factor), at(high / factor, high), at(high, high),
+                at(high, high / factor), at(low * factor, low)},
+               "band");
+}
+
+void Chart::equality_with_bands() {
+  band(kFar);
+  band(kNear);
+  equality();
 }
 
 void Chart::frontier(const std::vector<Point>& values, const std::string& style) {

@@ -31,8 +31,9 @@ Plot plot_of(const ModelFit& fit, const SeriesStyles& styles) {
     if (cell.predicted) values.insert(values.end(), {cell.measured, *cell.predicted});
   Chart chart(Axis(values, "time measured, ns per ray"),
               Axis(values, fmt::format("predicted by {}", fit.model->id)), 400);
-  chart.equality();
+  chart.equality_with_bands();
   std::vector<std::string> labels;
+  std::vector<Point> points;
   for (const ModelCell& cell : fit.cells) {
     if (!cell.predicted || !(*cell.predicted > 0)) continue;
     const std::string& label = cell.entry->label;
@@ -40,6 +41,7 @@ Plot plot_of(const ModelFit& fit, const SeriesStyles& styles) {
                 fmt::format("{}, {}: {} ns measured, {} predicted", label, title_of(*cell.group, false),
                             significant(cell.measured), significant(*cell.predicted)));
     labels.push_back(label);
+    points.push_back({cell.measured, *cell.predicted});
   }
   chart.legend(styles.legend(labels));
   const std::string title =
@@ -47,8 +49,8 @@ Plot plot_of(const ModelFit& fit, const SeriesStyles& styles) {
   return {fmt::format("model-time-{}", file_name_of(fit.precision)), title,
           fmt::format(
               "{}: the model with the least median error. Every scene is predicted from the others; on the "
-              "dashed line it is right.",
-              fit.model->formula),
+              "dashed line it is right. {}",
+              fit.model->formula, bands_in_words(points)),
           chart.svg().element(title)};
 }
 

@@ -5,12 +5,10 @@
 #include <set>
 #include <tuple>
 
-#include "analysis/plots/chart.h"
+#include "analysis/plots/growth.h"
 #include "analysis/plots/plots.h"
 #include "analysis/plots/series.h"
-#include "analysis/statistics/power_law.h"
 #include "analysis/tables/comparison.h"
-#include "analysis/tables/page.h"
 
 namespace rayshoot::analysis {
 
@@ -56,66 +54,26 @@ std::vector<Family> families(const std::vector<Group>& groups) {
   return result;
 }
 
-struct Curve {
-  std::vector<double> objects, values;
-};
-
 std::map<std::string, Curve> curves(const Family& family, Quantity quantity) {
   std::map<std::string, Curve> result;
   for (const auto& [objects, group] : family.by_objects)
     for (const Entry& entry : group->entries)
-      if (const auto value = quantity(entry); value && is_right(entry)) {
-        result[entry.label].objects.push_back(static_cast<double>(objects));
-        result[entry.label].values.push_back(*value);
-      }
-  std::erase_if(result, [](const auto& curve) { return curve.second.objects.size() < kLeastSizes; });
+      if (const auto value = quantity(entry); value && is_right(entry))
+        result[entry.label].add(static_cast<double>(objects), *value, fmt::format("{} objects", objects));
   return result;
 }
 
-std::string exponent_in_words(const PowerLaw& law) {
-  const auto& [value, interval] = law.exponent;
-  return interval ? fmt::format("{:.2f} [{:.2f}, {:.2f}]", value, interval->low, interval->high)
-                  : fmt::format("{:.2f}", value);
-}
-
-void draw(Chart& chart, const std::string& label, const Curve& curve, MarkerStyle style,
-          const PowerLaw& law) {
-  std::vector<Point> fitted;
-  for (const double objects : {curve.objects.front(), curve.objects.back()})
-    if (chart.contains(objects, law(objects))) fitted.push_back(chart.at(objects, law(objects)));
-  chart.svg().polyline(fitted, fmt::format("fit l{}", style.colour));
-  for (std::size_t i = 0; i < curve.objects.size(); ++i)
-    chart.point(
-        {curve.objects[i], curve.values[i]}, style,
-        fmt::format("{}: {} at {:.0f} objects", label, significant(curve.values[i]), curve.objects[i]));
-}
-
 std::optional<Plot> plot_of(const Family& family, const Growing& growing, const SeriesStyles& styles) {
-  const auto all = curves(family, growing.quantity);
-  if (all.empty()) return std::nullopt;
-  std::vector<double> objects, values;
-  for (const auto& [label, curve] : all) {
-    objects.insert(objects.end(), curve.objects.begin(), curve.objects.end());
-    values.insert(values.end(), curve.values.begin(), curve.values.end());
-  }
-  Chart chart(Axis(objects, "objects"), Axis(values, growing.axis));
-  std::vector<std::pair<std::string, MarkerStyle>> legend;
-  for (const auto& [label, curve] : all) {
-    const auto law = fit_power_law(curve.objects, curve.values);
-    if (!law) continue;
-    draw(chart, label, curve, styles(label), *law);
-    legend.emplace_back(fmt::format("{}: {}", label, exponent_in_words(*law)), styles(label));
-  }
-  chart.legend(legend);
   const std::string name = growing.of_rays
                                ? fmt::format("{}, {}, {}", family.scene, family.rays, family.precision)
                                : fmt::format("{}, {}", family.scene, family.precision);
-  const std::string title = fmt::format("{} over the number of objects: {}", growing.words, name);
-  return Plot{fmt::format("scaling-{}-{}", growing.name, file_name_of(name)), title,
-              "Lines are powers of the number of objects, fitted to the logarithms; beside the names the "
-              "exponents, with "
-              "Student's 95 % intervals.",
-              chart.svg().element(title)};
+  return growth_plot(curves(family, growing.quantity),
+                     {.name = fmt::format("scaling-{}-{}", growing.name, file_name_of(name)),
+                      .title = fmt::format("{} over the number of objects: {}", growing.words, name),
+                      .x = "objects",
+                      .y = growing.axis,
+                      .over = "the number of objects"},
+                     styles, kLeastSizes);
 }
 
 }  // namespace

@@ -38,8 +38,13 @@ PlotSet build_trace_plots(const std::vector<Group>& groups);
 /// Time and memory over the number of objects, with exponents.
 PlotSet object_scaling_plots(const std::vector<Group>& groups);
 
+/// How many times faster more threads are; cells of several reports that differ in their threads alone are one.
+PlotSet thread_scaling_plots(const std::vector<Group>& groups);
+/// Tests and steps over the stiffness of scenes, and of the settings of the numerical suite, with exponents.
+PlotSet stiffness_work_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports);
+
 /// All of these, in this order.
-std::vector<PlotSet> all_plots(const std::vector<Group>& groups);
+std::vector<PlotSet> all_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports);
 
 /// "balls:3/curves, whitted@65, float" as part of a file's name: letters, digits, hyphens and points.
 std::string file_name_of(const std::string& text);

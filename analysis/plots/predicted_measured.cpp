@@ -58,19 +58,21 @@ Plot plot_of(const std::vector<Pair>& pairs, const Kind& kind, const SeriesStyle
   for (const Pair& pair : pairs) values.push_back(pair.measured), values.push_back(pair.predicted);
   Chart chart(Axis(values, fmt::format("{} per ray, counted", kind.words)),
               Axis(values, "predicted by equation (3)"), 400);
-  chart.equality();
+  chart.equality_with_bands();
   std::vector<std::string> labels;
+  std::vector<Point> points;
   for (const Pair& pair : pairs) {
     chart.point({pair.measured, pair.predicted}, styles(pair.label), pair.tip);
     labels.push_back(pair.label);
+    points.push_back({pair.measured, pair.predicted});
   }
   chart.legend(styles.legend(labels));
   const std::string title = fmt::format("Equation (3) against {}", kind.words);
   return {fmt::format("predicted-measured-{}", kind.name), title,
           fmt::format(
               "{} cells. On the dashed line prediction and count agree; the median of the absolute errors is "
-              "{} %. Counts are those of the strict optimizer where they were taken.",
-              pairs.size(), significant(100 * median_error(pairs))),
+              "{} %. {} Counts are those of the strict optimizer where they were taken.",
+              pairs.size(), significant(100 * median_error(pairs)), bands_in_words(points)),
           chart.svg().element(title)};
 }
 

@@ -15,10 +15,18 @@ namespace {
 constexpr const char* kExhaustive = "exhaustive";
 }
 
-SeriesStyles::SeriesStyles(const std::vector<Group>& groups) {
+namespace {
+std::set<std::string> labels_of(const std::vector<Group>& groups) {
   std::set<std::string> labels;
   for (const Group& group : groups)
     for (const Entry& entry : group.entries) labels.insert(entry.label);
+  return labels;
+}
+}  // namespace
+
+SeriesStyles::SeriesStyles(const std::vector<Group>& groups) : SeriesStyles(labels_of(groups)) {}
+
+SeriesStyles::SeriesStyles(const std::set<std::string>& labels) {
   for (const std::string& label : labels) styles_.emplace(label, MarkerStyle(styles_.size()));
 }
 
@@ -109,9 +117,11 @@ std::string file_name_of(const std::string& text) {
   return name.substr(0, 100);
 }
 
-std::vector<PlotSet> all_plots(const std::vector<Group>& groups) {
-  return {predicted_measured_plots(groups), model_time_plots(groups),  error_time_plots(groups),
-          work_bars_plots(groups),          build_trace_plots(groups), object_scaling_plots(groups)};
+std::vector<PlotSet> all_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports) {
+  return {predicted_measured_plots(groups), model_time_plots(groups),
+          error_time_plots(groups),         work_bars_plots(groups),
+          build_trace_plots(groups),        object_scaling_plots(groups),
+          thread_scaling_plots(groups),     stiffness_work_plots(groups, reports)};
 }
 
 }  // namespace rayshoot::analysis

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace rayshoot::analysis {
 class SeriesStyles {
  public:
   explicit SeriesStyles(const std::vector<Group>& groups);
+  explicit SeriesStyles(const std::set<std::string>& labels);
   MarkerStyle operator()(const std::string& label) const { return styles_.at(label); }
   /// A legend of those that are named, in the order of their names.
   std::vector<std::pair<std::string, MarkerStyle>> legend(const std::vector<std::string>& labels) const;

@@ -104,6 +104,7 @@ svg.plot text{fill:var(--ink)}svg.plot .small{font-size:11.5px}svg.plot .tiny{fo
 svg.plot .ground{fill:var(--ground)}
 svg.plot .grid{stroke:var(--grid);fill:none}svg.plot .axis{stroke:var(--faint);fill:none}
 svg.plot .reference{stroke:var(--ink);stroke-dasharray:5 4;fill:none}
+svg.plot .band{fill:var(--faint);fill-opacity:.13}
 svg.plot .frontier{stroke:var(--ink);stroke-width:1.2;fill:none}
 svg.plot .m0,svg.plot .m1,svg.plot .m2,svg.plot .m3,svg.plot .m4,svg.plot .m5,svg.plot .m6{stroke-width:1.6;fill-opacity:.55}
 svg.plot .m0{stroke:var(--c0);fill:var(--c0)}svg.plot .m1{stroke:var(--c1);fill:var(--c1)}
@@ -123,6 +124,10 @@ void Svg::line(Point from, Point to, const std::string& style) {
 
 void Svg::polyline(const std::vector<Point>& points, const std::string& style) {
   if (!points.empty()) body_ += fmt::format("<path{} d=\"{}\"/>\n", class_of(style), path_of(points, false));
+}
+
+void Svg::polygon(const std::vector<Point>& corners, const std::string& style) {
+  if (!corners.empty()) body_ += fmt::format("<path{} d=\"{}\"/>\n", class_of(style), path_of(corners, true));
 }
 
 void Svg::rectangle(Point corner, double width, double height, const std::string& style,

@@ -29,6 +29,7 @@ class Svg {
 
   void line(Point from, Point to, const std::string& style);
   void polyline(const std::vector<Point>& points, const std::string& style);
+  void polygon(const std::vector<Point>& corners, const std::string& style);
   /// `tip` is shown by browsers where the mouse rests; none when empty.
   void rectangle(Point corner, double width, double height, const std::string& style,
                  const std::string& tip = "");

@@ -121,7 +121,7 @@ TEST(PredictedMeasured, LiesOnTheLineWhereBothAgree) {
 
 TEST(Plots, SayWhyTheyAreNotThere) {
   const report::Report nothing;
-  for (const PlotSet& set : all_plots(groups_of(nothing))) {
+  for (const PlotSet& set : all_plots(groups_of(nothing), {nothing})) {
     EXPECT_THAT(set.plots, IsEmpty());
     EXPECT_NE(set.left_out, "") << set.kind;
   }
@@ -138,13 +138,13 @@ TEST(Plots, AreFilesOfTheirOwn) {
   for (report::Measurement& cell : report.measurements) cell.scene = report.scenes[0].id;
   const std::vector<Group> all = groups_of(report);
   std::size_t plots = 0;
-  for (const PlotSet& set : all_plots(all))
+  for (const PlotSet& set : all_plots(all, {report}))
     for (const Plot& plot : set.plots) {
       ++plots;
       expect_well_formed(svg_file(plot.svg));
       EXPECT_TRUE(std::regex_match(plot.name, std::regex("[A-Za-z0-9._-]+"))) << plot.name;
     }
-  EXPECT_EQ(plots, 6u);
+  EXPECT_EQ(plots, 7u);
 }
 
 /// Techniques whose time grows with the square root of the objects, and whose memory grows in proportion.
@@ -173,12 +173,99 @@ TEST(ObjectScaling, FindsTheExponents) {
   EXPECT_THAT(set.plots[1].svg, HasSubstr("bvh_sah: 1.00 [1.00, 1.00]"));
 }
 
+TEST(ObjectScaling, HasNoMinusSignBeforeNothing) {
+  report::Report report = growing();
+  for (std::size_t i = 0; i < report.measurements.size(); ++i)
+    report.measurements[i].trace_ns = {1000 - static_cast<double>(i)};
+  const auto all = groups_of(report);
+  EXPECT_THAT(object_scaling_plots(all).plots.at(0).svg, HasSubstr("bvh_sah: 0.00 [0.00, 0.00]"));
+}
+
 TEST(ObjectScaling, NeedsThreeSizes) {
   report::Report report = growing();
   report.measurements.resize(2);
   const auto all = groups_of(report);
   EXPECT_THAT(object_scaling_plots(all).plots, IsEmpty());
   EXPECT_THAT(object_scaling_plots(all).left_out, HasSubstr("3 sizes"));
+}
+
+TEST(PredictedMeasured, SaysHowManyLieWithinTheBands) {
+  const std::vector<Point> pairs{{10, 11}, {10, 9}, {10, 6}, {10, 19}, {10, 21}, {10, 4}};
+  EXPECT_EQ(bands_in_words(pairs), "Shaded: off by at most 1.2 times (2 of 6) and 2 times (4 of 6).");
+  Chart chart(Axis(std::vector{1.0, 100.0}, ""), Axis(std::vector{1.0, 100.0}, ""));
+  chart.equality_with_bands();
+  const std::string svg = chart.svg().element("");
+  const std::regex band("class=\"band\"");
+  EXPECT_EQ(std::distance(std::sregex_iterator(svg.begin(), svg.end(), band), {}), 2);
+}
+
+/// The small report has one technique that two threads trace twice as fast.
+TEST(ThreadScaling, DrawsWhatWasTimedWithMoreThreads) {
+  const report::Report report = small_report();
+  const auto all = groups_of(report);
+  const PlotSet set = thread_scaling_plots(all);
+  ASSERT_THAT(set.plots, SizeIs(1));
+  EXPECT_THAT(
+      set.plots[0].svg,
+      HasSubstr("uniform_grid(density=1): 2.00 times faster with 2 times the threads, 1 scenes and rays"));
+  EXPECT_THAT(set.plots[0].svg, Not(HasSubstr("bvh_sah")));
+}
+
+/// Two reports of the same cells, of which the second traced with four threads.
+TEST(ThreadScaling, JoinsReportsThatDifferInTheirThreads) {
+  const report::Report one = growing();
+  report::Report four = growing();
+  for (report::Measurement& cell : four.measurements) {
+    cell.trace_threads = 4;
+    for (double& time : cell.trace_ns) time /= 3;
+  }
+  auto all = groups_of(one);
+  const auto more = groups_of(four);
+  all.insert(all.end(), more.begin(), more.end());
+  const PlotSet set = thread_scaling_plots(all);
+  ASSERT_THAT(set.plots, SizeIs(1));
+  EXPECT_THAT(set.plots[0].svg,
+              HasSubstr("bvh_sah: 3.00 times faster with 4 times the threads, 4 scenes and rays"));
+  const auto single = groups_of(one);
+  EXPECT_THAT(thread_scaling_plots(single).left_out, HasSubstr("thread_scaling"));
+}
+
+TEST(StiffnessWork, FindsTheExponents) {
+  report::Report report = growing();
+  for (std::size_t i = 0; i < report.scenes.size(); ++i) {
+    report.scenes[i].stiffness = 10 * static_cast<double>(i + 1);
+    report.measurements[i].work = report::Work{.rays = 10, .object_tests = 50 * (i + 1) * (i + 1)};
+  }
+  for (report::RaySet& rays : report.ray_sets) rays.distribution = "chords";
+  const auto all = groups_of(report);
+  const PlotSet set = stiffness_work_plots(all, {report});
+  ASSERT_THAT(set.plots, SizeIs(1)) << "no steps were counted";
+  EXPECT_EQ(set.plots[0].title, "Ray-object tests over the stiffness of the scene: chords rays, float");
+  EXPECT_THAT(set.plots[0].svg, HasSubstr("bvh_sah: 2.00 [2.00, 2.00]"));
+  EXPECT_THAT(set.plots[0].svg, HasSubstr("bvh_sah: 5.00 at stiffness 10.0, tetra:100"));
+  report.scenes.resize(2);
+  EXPECT_THAT(stiffness_work_plots({}, {}).left_out, HasSubstr("3 scenes"));
+}
+
+TEST(StiffnessWork, TakesPlainSettingsOfTheNumericalSuite) {
+  report::Report report;
+  for (int i = 1; i <= 4; ++i) {
+    report::Grading grading{.torture_case = "slivers",
+                            .setting = fmt::format("x={}", i),
+                            .technique = "kd_tree",
+                            .scalar = "double"};
+    grading.stiffness = std::pow(10, i);
+    grading.work = report::Work{.rays = 1, .steps = static_cast<std::uint64_t>(7 * i)};
+    report.gradings.push_back(grading);
+    grading.base = grading.setting;
+    grading.work->steps = 1000000;
+    report.gradings.push_back(grading);
+  }
+  const PlotSet set = stiffness_work_plots({}, {report});
+  ASSERT_THAT(set.plots, SizeIs(1));
+  EXPECT_EQ(set.plots[0].title, "Steps over the stiffness of the scene: slivers, double");
+  EXPECT_THAT(set.plots[0].svg, HasSubstr("kd_tree: 28.0 at stiffness 10000, x=4"));
+  EXPECT_THAT(set.plots[0].svg, Not(HasSubstr("1.00e6")));
 }
 
 }  // namespace

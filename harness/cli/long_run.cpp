@@ -1,9 +1,13 @@
 #include "harness/cli/long_run.h"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <csignal>
 #include <filesystem>
+#include <limits>
 
 #include "harness/cli/writable.h"
 #include "scenes/core/spec.h"
@@ -35,6 +39,15 @@ std::filesystem::path default_path(const std::string& run_id) {
 void stop_on_interrupt() { std::signal(SIGINT, interrupt); }
 
 bool interrupted() { return interrupts > 0; }
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  // Larger pieces always come from the system and go back: this is the most that the library takes as a threshold.
+  constexpr int most_on_heap = 32 << 20;
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_MMAP_THRESHOLD, most_on_heap);
+#endif
+}
 
 std::string report_path(const std::string& given, const std::string& run_id) {
   const std::string path = given.empty() ? default_path(run_id).string() : given;

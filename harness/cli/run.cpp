@@ -125,6 +125,7 @@ int run_command(const Options& given, const std::string& command_line) {
   if (earlier) skip_done(plan, *earlier);
 
   stop_on_interrupt();
+  keep_freed_memory();
   std::vector<report::Choice> choices;
   if (automatic) choices = choose(plan, options);
   report::Report report;

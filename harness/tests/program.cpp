@@ -43,14 +43,19 @@ std::string contents(const std::filesystem::path& path) {
   _exit(127);
 }
 
-/// Wait until a file has `sign` in it, or for the end of a process; true when that has not ended.
-bool wait_for(const std::string& sign, const std::filesystem::path& file, pid_t process) {
+bool has_ended(pid_t process) {
   siginfo_t ended{};
+  return waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         ended.si_pid != 0;
+}
+
+/// Wait until something is so, or for the end of a process; true when that has not ended.
+template <class Condition>
+bool wait_until(const Condition& condition, pid_t process) {
   do {
-    if (contents(file).find(sign) != std::string::npos) return true;
+    if (condition()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  } while (waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-           ended.si_pid == 0);
+  } while (!has_ended(process));
   return false;
 }
 
@@ -76,17 +81,38 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::filesy
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
 }
 
-Outcome interrupt_program(const std::vector<std::string>& arguments, const std::string& sign,
-                          const std::filesystem::path& directory, int signal) {
+namespace {
+
+/// Run the program, and send it a signal when `wait`, which is told its errors and its process, says so.
+template <class Wait>
+Outcome signal_program(const std::vector<std::string>& arguments, const std::filesystem::path& directory,
+                       int signal, const Wait& wait) {
   const TemporaryFolder streams;
   const std::string output = streams.path() / "output", errors = streams.path() / "errors";
   const pid_t process = fork();
   if (process < 0) throw std::runtime_error("no process");
   if (process == 0) become_program(arguments, directory, output, errors);
-  if (wait_for(sign, errors, process)) kill(process, signal);
+  if (wait(errors, process)) kill(process, signal);
   int status = 0;
   waitpid(process, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(output), contents(errors)};
+}
+
+}  // namespace
+
+Outcome interrupt_program(const std::vector<std::string>& arguments, const std::string& sign,
+                          const std::filesystem::path& directory, int signal) {
+  return signal_program(arguments, directory, signal, [&](const std::string& errors, pid_t process) {
+    return wait_until([&] { return contents(errors).find(sign) != std::string::npos; }, process);
+  });
+}
+
+Outcome kill_program(const std::vector<std::string>& arguments, std::chrono::milliseconds after,
+                     const std::filesystem::path& directory) {
+  const auto moment = std::chrono::steady_clock::now() + after;
+  return signal_program(arguments, directory, SIGKILL, [&](const std::string&, pid_t process) {
+    return wait_until([&] { return std::chrono::steady_clock::now() >= moment; }, process);
+  });
 }
 
 }  // namespace rayshoot::test

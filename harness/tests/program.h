@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <string>
@@ -33,5 +34,9 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::filesy
 /// errors.
 Outcome interrupt_program(const std::vector<std::string>& arguments, const std::string& sign,
                           const std::filesystem::path& directory, int signal = SIGINT);
+
+/// The same, killed after so long, without a chance to clean up; its status is then -1.
+Outcome kill_program(const std::vector<std::string>& arguments, std::chrono::milliseconds after,
+                     const std::filesystem::path& directory);
 
 }  // namespace rayshoot::test

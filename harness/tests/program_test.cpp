@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include "without_times.h"
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #include <stb/stb_image.h>
@@ -262,15 +264,6 @@ std::vector<std::string> counted_run(const std::string& output, const std::vecto
   return arguments;
 }
 
-/// What two runs of one plan have in common: all but when and how long.
-std::string contents(const report::Report& report) {
-  report::Report same = report;
-  same.run = {};
-  same.environment.load.reset();
-  for (report::Measurement& cell : same.measurements) cell.build_ns.clear();
-  return report::to_json(same);
-}
-
 report::Report read(const TemporaryFolder& folder, const std::string& name) {
   return report::read_report((folder.path() / name).string());
 }
@@ -295,7 +288,7 @@ TEST(Resume, GoesOnWhereARunWasKilled) {
   EXPECT_EQ(resumed.status, 0) << resumed.errors;
   EXPECT_THAT(resumed.errors, HasSubstr(fmt::format("of {} cells", 8 - 2 * done))) << "only what was missing";
   EXPECT_THAT(files_in(folder), UnorderedElementsAre("whole.json", "report.json"));
-  EXPECT_EQ(contents(read(folder, "report.json")), contents(read(folder, "whole.json")));
+  EXPECT_EQ(without_times(read(folder, "report.json")), without_times(read(folder, "whole.json")));
 }
 
 TEST(Resume, GoesOnWhereARunWasInterrupted) {
@@ -304,7 +297,7 @@ TEST(Resume, GoesOnWhereARunWasInterrupted) {
   EXPECT_EQ(interrupt_program(counted_run("report.json"), "6 of 8 cells", folder.path()).status, 130);
   EXPECT_FALSE(read(folder, "report.json").run.complete);
   EXPECT_EQ(run_program(counted_run("report.json", {"--resume"}), folder.path()).status, 0);
-  EXPECT_EQ(contents(read(folder, "report.json")), contents(read(folder, "whole.json")));
+  EXPECT_EQ(without_times(read(folder, "report.json")), without_times(read(folder, "whole.json")));
   EXPECT_TRUE(read(folder, "report.json").run.complete);
 }
 
@@ -334,7 +327,7 @@ TEST(Shards, AreTogetherWhatOneRunIs) {
       run_program({"merge", "1.json", "2.json", "3.json", "-o", "merged.json"}, folder.path());
   EXPECT_EQ(merged.status, 0) << merged.errors;
   EXPECT_THAT(merged.output, HasSubstr("4 scenes, 8 cells"));
-  EXPECT_EQ(contents(read(folder, "merged.json")), contents(read(folder, "whole.json")));
+  EXPECT_EQ(without_times(read(folder, "merged.json")), without_times(read(folder, "whole.json")));
   const Outcome twice = run_program({"merge", "1.json", "1.json", "-o", "twice.json"}, folder.path());
   EXPECT_EQ(twice.status, 2);
   EXPECT_THAT(twice.errors, HasSubstr("two runs have the scene tetra:1/curves"));
