@@ -1,6 +1,9 @@
 // What makes bvh_wide that technique.
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "accel/parts/ray_order.h"
 #include "accel/parts/wide_build.h"
 #include "accel/parts/wide_kernels.h"
 #include "accel/tests/built_engine.h"
@@ -31,12 +34,13 @@ void check_kernels(const Scene& scene, double scale, int rays) {
   const auto all = nasty::rays(geometry, scale, rays);
   const auto truths = conformance::truths<float>(geometry, all);
   for (const char* instructions : {"best", "avx2"})
-    for (const char* max_objects : {"8", "1", "5"}) {
-      SCOPED_TRACE(fmt::format("{}, {} objects, scaled by {}", instructions, max_objects, scale));
-      const Given given{{"instructions", instructions}, {"max_objects", max_objects}};
-      conformance::check_engine<float>(*build<float>("bvh_wide", geometry, given), all, truths);
-      if (::testing::Test::HasFailure()) return;
-    }
+    for (const char* mode : {"single", "batch"})
+      for (const char* max_objects : {"8", "1", "5"}) {
+        SCOPED_TRACE(fmt::format("{}, {}, {} objects, scaled by {}", instructions, mode, max_objects, scale));
+        const Given given{{"instructions", instructions}, {"mode", mode}, {"max_objects", max_objects}};
+        conformance::check_engine<float>(*build<float>("bvh_wide", geometry, given), all, truths);
+        if (::testing::Test::HasFailure()) return;
+      }
 }
 
 TEST(BvhWide, KernelsAnswerAsExhaustiveSearch) {
@@ -46,6 +50,124 @@ TEST(BvhWide, KernelsAnswerAsExhaustiveSearch) {
     SCOPED_TRACE(spec);
     check_kernels(load_scene(spec).scene, 1, 60);
   }
+}
+
+/// Rays of a small picture, row by row, of which some look only so far, some start late and some are no rays at all.
+std::vector<Ray<float>> coherent_rays(double scale, const Vec3d& eye, const Vec3d& at) {
+  std::vector<Ray<float>> rays;
+  for (int row = 0; row < 12; ++row)
+    for (int column = 0; column < 48; ++column) {
+      const Vec3d to = at + Vec3d{column * 0.05, row * 0.13, row * 0.05};
+      Ray<float> ray{.origin = Vec3<float>(eye * scale), .direction = Vec3<float>((to - eye) * scale)};
+      const int kind = (row * 48 + column) % 37;
+      if (row % 3 == 1 && kind == 0) ray.t_max = 1;
+      if (row % 3 == 1 && kind == 9) ray.t_min = 0.9f;
+      if (row % 3 == 2 && kind == 3) ray.direction.y = std::numeric_limits<float>::quiet_NaN();
+      if (row % 3 == 2 && kind == 7) ray.t_max = -1;
+      rays.push_back(ray);
+    }
+  return rays;
+}
+
+TEST(BvhWide, PacketsAnswerAsExhaustiveSearch) {
+  const Scene scene = triangles_and_others(400);
+  for (const double scale : nasty::kScales) {
+    const Geometry<float> geometry(nasty::scaled(scene, scale));
+    // From afar, from within, and along the axes, where directions change sides within a row.
+    for (const auto& [eye, at] : {std::pair<Vec3d, Vec3d>{{9, 7, 8}, {-2, -1, 0}},
+                                  {{0.3, 0.2, 0.1}, {1, 2, 3}},
+                                  {{0, -9, 0.4}, {-1.2, 0, 0}},
+                                  {{300, 200, 100}, {-1, -1, -1}}}) {
+      const auto rays = coherent_rays(scale, eye, at);
+      const auto truths = conformance::truths<float>(geometry, rays);
+      for (const char* instructions : {"best", "avx2"}) {
+        SCOPED_TRACE(fmt::format("{}, scaled by {}, from {}", instructions, scale, eye.x));
+        const Given given{{"instructions", instructions}, {"mode", "batch"}};
+        conformance::check_engine<float>(*build<float>("bvh_wide", geometry, given), rays, truths);
+        ASSERT_FALSE(::testing::Test::HasFailure());
+      }
+    }
+  }
+}
+
+/// Needles through and through a cube.
+Scene needles(int count) {
+  SceneBuilder builder;
+  nasty::Random random(5);
+  for (int i = 0; i < count; ++i) {
+    const Vec3d from = nasty::uniform_point(random, -1, 1), to = nasty::uniform_point(random, -1, 1);
+    builder.triangle(from, to, to + nasty::uniform_point(random, -1, 1) * 1e-3);
+  }
+  return std::move(builder).finish();
+}
+
+template <class Real>
+void check_needles(const Scene& scene) {
+  for (const double scale : nasty::kScales) {
+    const Geometry<Real> geometry(nasty::scaled(scene, scale));
+    auto rays = nasty::rays(geometry, scale, 60);
+    // From so far away that hits are rounded to places beside their pieces.
+    for (std::size_t i = 0; i < 40; ++i) {
+      const Vec3<Real> corner = geometry.triangle(static_cast<std::uint32_t>(i)).b;
+      const Vec3<Real> eye = Vec3<Real>(Vec3d{3e5, 2e5, 1e5 * static_cast<double>(i)} * scale);
+      rays.push_back({.origin = eye, .direction = corner - eye});
+    }
+    const auto truths = conformance::truths<Real>(geometry, rays);
+    for (const char* mode : {"single", "batch"}) {
+      SCOPED_TRACE(fmt::format("{}, scaled by {}", mode, scale));
+      conformance::check_engine<Real>(*build<Real>("bvh_wide", geometry, {{"mode", mode}}), rays, truths);
+      ASSERT_FALSE(::testing::Test::HasFailure());
+    }
+  }
+}
+
+TEST(BvhWide, CutsNeedlesAndAnswersAsExhaustiveSearch) {
+  const Scene scene = needles(3000);
+  check_needles<float>(scene);
+  check_needles<double>(scene);
+}
+
+TEST(BvhWide, CutsWhatIsMostlyVoidWhereRaysMeetMuchOfIt) {
+  const Geometry<float> many(needles(3000)), few(needles(200)), mesh(load_scene("mount:4").scene);
+  const auto references = [](const Geometry<float>& geometry, const char* budget) {
+    return build<float>("bvh_wide", geometry, {{"split_budget", budget}})->structure().references;
+  };
+  EXPECT_EQ(references(many, "0"), 3000u);
+  EXPECT_GT(references(many, "3"), 3000u * 3);
+  EXPECT_LE(references(many, "3"), 3000u * 4);
+  EXPECT_EQ(references(few, "3"), 200u);
+  EXPECT_EQ(references(mesh, "3"), mesh.size());
+
+  const auto rays = nasty::rays(many, 1, 300);
+  const auto tests = [&](const char* budget) {
+    return counted(*build<float>("bvh_wide", many, {{"split_budget", budget}}), Query::closest, rays)
+        .work.object_tests;
+  };
+  EXPECT_LT(2 * tests("5"), tests("0"));
+}
+
+TEST(RayOrder, IsAPermutationInWhichNeighboursAreAlike) {
+  nasty::Random random(7);
+  std::vector<Ray<float>> rays;
+  for (int i = 0; i < 5000; ++i)
+    rays.push_back({.origin = Vec3<float>(nasty::uniform_point(random, 0, 1)),
+                    .direction = Vec3<float>(nasty::uniform_point(random, -1, 1))});
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  rays.push_back({.origin = {nan, 0, 1e30f}, .direction = {0, nan, 0}});
+  rays.push_back({.origin = {-5, 1e38f, 0}, .direction = {0, 0, 0}});
+  RayOrder order;
+  const auto sorted = order.sorted(rays, {{0, 0, 0}, {1, 1, 1}});
+  EXPECT_EQ(std::set<std::uint32_t>(sorted.begin(), sorted.end()).size(), rays.size());
+  const auto mean_step = [&](const auto& number) {
+    double sum = 0;
+    for (std::uint32_t i = 1; i < 5000; ++i) {
+      const std::uint32_t a = number(i - 1), b = number(i);
+      if (std::max(a, b) < 5000) sum += length(Vec3d(rays[a].origin - rays[b].origin));
+    }
+    return sum / 5000;
+  };
+  EXPECT_LT(3 * mean_step([&](std::uint32_t i) { return sorted[i]; }),
+            mean_step([](std::uint32_t i) { return i; }));
 }
 
 TEST(BvhWide, TakesFewerStepsThanABinaryTree) {
