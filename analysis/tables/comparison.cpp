@@ -43,13 +43,16 @@ std::string verdict_note(const Entry& entry) {
 
 /// Who was compared with, where there was a choice.
 std::string baseline_note(const Group& group, const std::string& technique, const Measurement* baseline) {
-  const auto others = std::count_if(group.entries.begin(), group.entries.end(), [&](const Entry& entry) {
-    return entry.measurement->technique == technique && !entry.measurement->trace_ns.empty();
-  });
-  if (others < 2) return {};
-  const auto chosen = std::find_if(group.entries.begin(), group.entries.end(),
-                                   [&](const Entry& entry) { return entry.measurement == baseline; });
-  return fmt::format("Compared with {}, the fastest of {}.", chosen->label, others);
+  std::size_t all = 0, alike = 0;
+  std::string chosen;
+  for (const auto& [measurement, label, rays, zero_overhead, embree] : group.entries) {
+    if (measurement->technique != technique || measurement->trace_ns.empty()) continue;
+    ++all, alike += traces_ray_by_ray(*measurement) == traces_ray_by_ray(*baseline);
+    if (measurement == baseline) chosen = label;
+  }
+  if (all < 2) return {};
+  return fmt::format("Compared with {}, the fastest of {}.", chosen,
+                     alike < all ? "those that trace ray by ray" : fmt::format("{}", all));
 }
 
 /// Cells that were not run, those with one reason together.

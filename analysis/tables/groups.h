@@ -21,7 +21,8 @@ struct Entry {
   std::string label;
   /// Number of rays; 0 when the report does not list them.
   std::uint64_t rays = 0;
-  /// The fastest zero_overhead and the fastest embree of the group; null where none was timed.
+  /// The fastest zero_overhead and the fastest embree of the group, of those that trace ray by ray where there are some; null
+  /// where none was timed.
   const report::Measurement *zero_overhead = nullptr, *embree = nullptr;
 };
 
@@ -39,6 +40,9 @@ struct Group {
 
 /// In the order of the report's scenes.
 std::vector<Group> groups(const report::Report& report);
+
+/// Whether rays are handed over one by one, as to every technique but Embree in its modes stream and packet.
+bool traces_ray_by_ray(const report::Measurement& measurement);
 
 /// Nanoseconds a ray: the median of the repetitions.
 std::optional<Estimate> time_per_ray(const Entry& entry);

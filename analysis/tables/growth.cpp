@@ -86,9 +86,13 @@ std::vector<NamedCurve> curves(const Family& family) {
   return result;
 }
 
+/// A page says in its title what CSV says in every row.
 std::vector<Column> columns() {
   std::vector<Column> result{
-      technique_column(),
+      {.key = "technique", .title = "technique", .style = Style::text},
+      {.key = "scene", .style = Style::text, .place = Place::csv},
+      {.key = "rays", .style = Style::text, .place = Place::csv},
+      {.key = "precision", .style = Style::text, .place = Place::csv},
       {"sizes", "sizes", "", "sizes of the scene in which the technique is right", Style::whole},
       {"objects_to", "up to", "objects", "", Style::whole}};
   for (const Growing& growing : kGrowing) {
@@ -119,11 +123,14 @@ void append_law(std::vector<Cell>& row, const std::optional<PowerLaw>& law) {
   row.push_back({interval ? std::optional(interval->high) : std::nullopt, ""});
 }
 
-std::vector<Cell> row_of(const std::string& label, const Curve& curve) {
+std::vector<Cell> row_of(const Family& family, const std::string& label, const Curve& curve) {
   const double largest = curve.objects.back();
   const Entry& last = *curve.entries.back();
-  std::vector<Cell> row{
-      {std::nullopt, label}, {static_cast<double>(curve.objects.size()), ""}, {largest, ""}};
+  std::vector<Cell> row;
+  for (const std::string& name : {label, family.scene, family.rays, family.precision})
+    row.push_back({std::nullopt, name});
+  row.push_back({static_cast<double>(curve.objects.size()), ""});
+  row.push_back({largest, ""});
   for (const Growing& growing : kGrowing) append_law(row, curve.law(growing));
   const auto held = bytes(last);
   row.push_back({held ? std::optional(*held / largest) : std::nullopt, ""});
@@ -136,7 +143,7 @@ Table growth_table(const Family& family, const std::string& run) {
                                    family.rays, family.precision, family.by_objects.begin()->first,
                                    family.by_objects.rbegin()->first),
               .columns = columns()};
-  for (const auto& [label, curve] : curves(family)) table.rows.push_back(row_of(label, curve));
+  for (const auto& [label, curve] : curves(family)) table.rows.push_back(row_of(family, label, curve));
   return table;
 }
 

@@ -69,6 +69,25 @@ TEST(Comparison, HasNoRatioToABaselineThatIsMissingOrNotTimed) {
   EXPECT_TRUE(find_cell(table, "bvh_sah", "trace_ns_per_ray").number);
 }
 
+TEST(Comparison, ComparesWithAnEmbreeThatTracesRayByRay) {
+  report::Report report = small_report();
+  measurement(report, "embree").config = {{"mode", "single"}};
+  report::Measurement packet = measurement(report, "embree");
+  packet.config = {{"mode", "packet"}};
+  for (double& ns : packet.trace_ns) ns /= 2;
+  report.measurements.push_back(packet);
+  Table table = measured(report);
+  EXPECT_DOUBLE_EQ(number_in(table, "bvh_sah", "times_embree"), 0.5);
+  EXPECT_DOUBLE_EQ(number_in(table, "embree(mode=packet)*", "times_embree"), 2);
+  EXPECT_THAT(table.notes,
+              Contains("Compared with embree(mode=single), the fastest of those that trace ray by ray."));
+  // Where there is none, the fastest of the others.
+  measurement(report, "embree").config = {{"mode", "stream"}};
+  table = measured(report);
+  EXPECT_DOUBLE_EQ(number_in(table, "bvh_sah", "times_embree"), 0.25);
+  EXPECT_THAT(table.notes, Contains("Compared with embree(mode=packet), the fastest of 2."));
+}
+
 TEST(Comparison, SaysWhereEmbreeWasBuiltWithAssertions) {
   const auto says_so = Contains(HasSubstr("built with assertions"));
   report::Report report = small_report();

@@ -68,6 +68,7 @@ class GroupRun {
                  std::any_of(input_.rays.begin(), input_.rays.end(), serves);
         },
         nullptr);
+    references_.emplace(geometry_, reference_among(searching));
     for (const PreparedRays* rays : input_.rays)
       if (!stopped_()) measure(*rays, searching);
   }
@@ -148,9 +149,19 @@ class GroupRun {
     keep_complete(cells);
   }
 
-  Oracle<Real> oracle_of(const Batch<Real>& batch) const {
+  /// What is built already and may serve as the oracle's reference; null where there is nothing.
+  static const Engine<Real>* reference_among(const std::vector<Built<Real>>& built) {
+    const TechniqueEntry& entry = technique_entry(kReferenceTechnique);
+    const Arguments defaults(entry.info.parameters, {}, entry.info.id);
+    for (const Built<Real>& one : built)
+      if (one.engine && one.choice->entry == &entry && one.choice->arguments.values() == defaults.values())
+        return one.engine.get();
+    return nullptr;
+  }
+
+  Oracle<Real> oracle_of(const Batch<Real>& batch) {
     const auto verifying = input_.phases.scope(Phase::verify);
-    return Oracle<Real>(geometry_, batch, suite_.check_tests, suite_.seed, all_threads_);
+    return Oracle<Real>(*references_, batch, suite_.check_tests, suite_.seed, all_threads_);
   }
 
   Cell<Real> new_cell(const Built<Real>& built, const RaySet& set) const {
@@ -300,6 +311,7 @@ class GroupRun {
   Geometry<Real> geometry_;
   std::vector<Ray<Real>> sample_rays_;
   RaySample<Real> sample_;
+  std::optional<References<Real>> references_;
   std::optional<ExactOracle<Real>> exact_;
 };
 

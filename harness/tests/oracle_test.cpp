@@ -22,7 +22,8 @@ class OracleTest : public ::testing::Test {
     Answers<float> answers(batch_);
     ThreadScratch<float> scratch(engine);
     trace(engine, batch_, answers, scratch, kThreads);
-    Oracle<float> oracle(geometry_, batch_, check_tests, 1, kThreads);
+    References<float> references(geometry_);
+    Oracle<float> oracle(references, batch_, check_tests, 1, kThreads);
     return oracle.judge({{&info, &answers}}).at(0);
   }
   report::Verdict judge(const std::string& id, double check_tests) const {
@@ -85,7 +86,8 @@ TEST_F(OracleTest, AnyHitIsJudgedByWhetherThereIsOne) {
 }
 
 TEST_F(OracleTest, RecordedHitsAreThoseOfAllRays) {
-  const Oracle<float> oracle(geometry_, batch_, kEverything, 1, kThreads);
+  References<float> references(geometry_);
+  const Oracle<float> oracle(references, batch_, kEverything, 1, kThreads);
   const RecordedHits<float> recorded = oracle.recorded();
   ASSERT_EQ(recorded.hits.size(), batch_.rays.size());
   std::uint64_t blocked = 0;
@@ -93,6 +95,27 @@ TEST_F(OracleTest, RecordedHitsAreThoseOfAllRays) {
     blocked += recorded.hits[i].object != kNoObject;
   EXPECT_GT(blocked, 0u);
   EXPECT_LT(blocked, batch_.any().size());
+}
+
+TEST_F(OracleTest, ReferencesAreBuiltOnceAndOnlyWhereThereAreNone) {
+  References<float> references(geometry_);
+  EXPECT_EQ(&references.reference(), &references.reference());
+  EXPECT_EQ(&references.exhaustive(), &references.exhaustive());
+  const auto built = build_default("bvh_sah", geometry_);
+  EXPECT_EQ(&References<float>(geometry_, built.get()).reference(), built.get());
+}
+
+TEST_F(OracleTest, AReferenceThatIsWrongIsCaughtWhoeverBuiltIt) {
+  const AlteredEngine<float> losing({geometry_, none_}, [](const Ray<float>&, Hit<float>& hit) { hit = {}; });
+  References<float> references(geometry_, &losing);
+  Oracle<float> oracle(references, batch_, 20.0 * geometry_.size(), 1, kThreads);
+  const TechniqueEntry& entry = technique_entry("exhaustive");
+  Answers<float> answers(batch_);
+  ThreadScratch<float> scratch(references.exhaustive());
+  trace(references.exhaustive(), batch_, answers, scratch, kThreads);
+  const report::Verdict verdict = oracle.judge({{&entry.info, &answers}}).at(0);
+  EXPECT_EQ(verdict.status, Status::ok);
+  EXPECT_EQ(verdict.reference, "exhaustive");
 }
 
 TEST_F(OracleTest, AnswersAndCountsDoNotDependOnTheNumberOfThreads) {

@@ -4,8 +4,6 @@
 #include <numeric>
 #include <random>
 
-#include "harness/verify/reference.h"
-
 namespace rayshoot {
 
 namespace {
@@ -29,16 +27,15 @@ std::vector<std::uint32_t> random_sample(std::size_t population, std::size_t siz
 }  // namespace
 
 template <class Real>
-Oracle<Real>::Oracle(const Geometry<Real>& geometry, const Batch<Real>& batch, double check_tests,
+Oracle<Real>::Oracle(References<Real>& references, const Batch<Real>& batch, double check_tests,
                      std::uint64_t seed, int threads)
-    : geometry_(geometry),
-      batch_(batch),
+    : batch_(batch),
       threads_(threads),
-      exhaustive_(build_default(kExhaustiveTechnique, geometry)),
+      exhaustive_(references.exhaustive()),
       reference_(kExhaustiveTechnique),
       hits_(batch.rays.size()),
       checked_(batch.rays.size()) {
-  const double affordable = check_tests / std::max(1.0, static_cast<double>(geometry.numbers()));
+  const double affordable = check_tests / std::max(1.0, static_cast<double>(references.geometry().numbers()));
   const std::size_t rays = batch.rays.size();
   // A ray at least, but for scenes of so many placed objects that one alone takes minutes.
   const double least = affordable < kHopeless ? 0 : 1;
@@ -46,9 +43,9 @@ Oracle<Real>::Oracle(const Geometry<Real>& geometry, const Batch<Real>& batch, d
       static_cast<std::size_t>(std::clamp(affordable, least, std::max(1.0, static_cast<double>(rays))));
   if (sample_size < rays) {
     reference_ = kReferenceTechnique;
-    const auto engine = build_default(kReferenceTechnique, geometry);
-    ThreadScratch<Real> scratch(*engine);
-    trace_closest(*engine, batch.all(), std::span(hits_), scratch, threads);
+    const Engine<Real>& engine = references.reference();
+    ThreadScratch<Real> scratch(engine);
+    trace_closest(engine, batch.all(), std::span(hits_), scratch, threads);
   }
   search_exhaustively(random_sample(rays, sample_size, seed));
 }
@@ -57,10 +54,10 @@ Oracle<Real>::Oracle(const Geometry<Real>& geometry, const Batch<Real>& batch, d
 template <class Real>
 void Oracle<Real>::search_exhaustively(const std::vector<std::uint32_t>& rays) {
   std::vector<Hit<Real>> found(rays.size());
-  ThreadScratch<Real> scratch(*exhaustive_);
+  ThreadScratch<Real> scratch(exhaustive_);
   tbb::task_arena(threads_).execute([&] {
     tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-      exhaustive_->closest(batch_.all().subspan(rays[i], 1), std::span(found).subspan(i, 1), scratch.local());
+      exhaustive_.closest(batch_.all().subspan(rays[i], 1), std::span(found).subspan(i, 1), scratch.local());
     });
   });
   for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include "harness/report/report.h"
 #include "harness/verify/answers.h"
+#include "harness/verify/reference.h"
 
 namespace rayshoot {
 
@@ -22,7 +23,7 @@ struct Statement {
 template <class Real>
 class Oracle {
  public:
-  Oracle(const Geometry<Real>& geometry, const Batch<Real>& batch, double check_tests, std::uint64_t seed,
+  Oracle(References<Real>& references, const Batch<Real>& batch, double check_tests, std::uint64_t seed,
          int threads);
 
   /// The nearest hits of all rays, also of those that ask for any.
@@ -38,10 +39,9 @@ class Oracle {
   bool settle(const Statement<Real>& statement, std::uint32_t ray);
   report::Verdict judge(const Statement<Real>& statement);
 
-  const Geometry<Real>& geometry_;
   const Batch<Real>& batch_;
   int threads_;
-  std::unique_ptr<Engine<Real>> exhaustive_;
+  const Engine<Real>& exhaustive_;
   /// Technique that gave the answers that are not checked; "exhaustive" where all are.
   std::string reference_;
   std::vector<Hit<Real>> hits_;
