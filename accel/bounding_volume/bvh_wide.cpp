@@ -8,7 +8,7 @@
 //            intersector is fast, `closest` and `any` in float are kernels: the triangles of a leaf lie side by side
 //            and get the scalar test, operation by operation in double precision, at once.
 // Parameters instructions  best takes AVX-512 where the processor has it: eight triangles at once, in AVX2 four
-//            split         how bvh_sah splits small ranges of the binary tree
+//            build         how the binary tree is built, as bvh_sah's
 //            max_objects   objects a leaf may hold at the most; 8, as many as are tested at once
 //            leaf_cost     cost of one test in a leaf, of eight objects where there are kernels, of one otherwise, in
 //                          tests of a node's children; 1, and up to 2.5 makes no difference of note
@@ -42,7 +42,7 @@ class BvhWide {
   using Scalar = Real;
   struct Config {
     std::string instructions;
-    bool sweep;
+    SahMethod method;
     WideCosts costs;
   };
   struct Scratch {};
@@ -56,15 +56,14 @@ class BvhWide {
         .paper = "Wald, Benthin & Boulos 2008; Ylitie, Karras & Laine 2017",
         .parameters = {
             choice_parameter("instructions", "best", {"best", "avx2"}, "instructions of the timed searches"),
-            choice_parameter("split", "sweep", {"sweep", "binned"},
-                             "how ranges of at most 256 objects are split"),
+            sah_method_parameter(),
             integer_parameter("max_objects", 8, 1, 8, "objects a leaf may hold at the most"),
             real_parameter("leaf_cost", 1, 0, 100,
                            "cost of testing a leaf's objects, in tests of a node's children")}};
   }
   static Config configure(const Arguments& arguments) {
     return {.instructions = arguments.text("instructions"),
-            .sweep = arguments.text("split") == "sweep",
+            .method = sah_method(arguments),
             .costs = {.leaf = arguments.real("leaf_cost"),
                       .max_objects = static_cast<std::uint32_t>(arguments.integer("max_objects"))}};
   }
@@ -78,7 +77,7 @@ class BvhWide {
     WideCosts costs = config.costs;
     if (!at_once) costs.objects_at_once = 1;
     std::vector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
-    bvh.tree_ = widened_tree(sah_tree<Real>(objects, {.sweep = config.sweep, .max_objects = 1}), costs);
+    bvh.tree_ = widened_tree(sah_tree<Real>(objects, {config.method, 1}), costs);
     bvh.order_.reserve(objects.size());
     for (const BoxedObject<Real>& object : objects) bvh.order_.push_back(object.object);
     if constexpr (std::same_as<Real, float>)
