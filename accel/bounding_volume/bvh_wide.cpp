@@ -8,7 +8,8 @@
 //            intersector is fast, `closest` and `any` in float are kernels: the triangles of a leaf lie side by side
 //            and get the scalar test, operation by operation in double precision, at once.
 // Parameters instructions  best takes AVX-512 where the processor has it: eight triangles at once, in AVX2 four
-//            build         how the binary tree is built, as bvh_sah's
+//            build         how the binary tree is built: binned, sweep or fast, as bvh_sah's; fast takes half the time,
+//                          and its leaves are clusters, the smallest of which are joined
 //            max_objects   objects a leaf may hold at the most; 8, as many as are tested at once
 //            leaf_cost     cost of one test in a leaf, of eight objects where there are kernels, of one otherwise, in
 //                          tests of a node's children; 1, and up to 2.5 makes no difference of note
@@ -44,6 +45,9 @@ class BvhWide {
     std::string instructions;
     SahMethod method;
     WideCosts costs;
+
+    /// Clusters of a fast build are not divided; of others every object can be told from every other.
+    std::size_t binary_leaf() const { return method == SahMethod::fast ? costs.max_objects : 1; }
   };
   struct Scratch {};
 
@@ -76,8 +80,8 @@ class BvhWide {
     const bool at_once = std::same_as<Real, float> && triangles_suit(in.geometry);
     WideCosts costs = config.costs;
     if (!at_once) costs.objects_at_once = 1;
-    std::vector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
-    bvh.tree_ = widened_tree(sah_tree<Real>(objects, {config.method, 1}), costs);
+    HugeVector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
+    bvh.tree_ = widened_tree(sah_tree<Real>(objects, {config.method, config.binary_leaf()}), costs);
     bvh.order_.reserve(objects.size());
     for (const BoxedObject<Real>& object : objects) bvh.order_.push_back(object.object);
     if constexpr (std::same_as<Real, float>)
@@ -128,18 +132,18 @@ class BvhWide {
     });
   }
 
-  bool kernels_serve(const Geometry<Real>& arranged) const {
-    return std::same_as<Real, float> && triangles_suit(arranged);
+  bool kernels_serve(const Geometry<Real>& geometry) const {
+    return std::same_as<Real, float> && triangles_suit(geometry);
   }
-  void kernel_closest(const Geometry<Real>& arranged, std::span<const Ray<Real>> rays,
+  void kernel_closest(const Geometry<Real>& geometry, std::span<const Ray<Real>> rays,
                       std::span<Hit<Real>> hits) const {
     if constexpr (std::same_as<Real, float>)
-      kernels_->closest({tree_, triangles_, arranged, order_}, rays, hits);
+      kernels_->closest({tree_, triangles_, geometry, order_}, rays, hits);
   }
-  void kernel_any(const Geometry<Real>& arranged, std::span<const Ray<Real>> rays,
+  void kernel_any(const Geometry<Real>& geometry, std::span<const Ray<Real>> rays,
                   std::span<std::uint8_t> blocked) const {
     if constexpr (std::same_as<Real, float>)
-      kernels_->any({tree_, triangles_, arranged, order_}, rays, blocked);
+      kernels_->any({tree_, triangles_, geometry, order_}, rays, blocked);
   }
 
   StructureStats structure() const {

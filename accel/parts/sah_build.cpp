@@ -3,6 +3,7 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
+#include "accel/parts/sah_clusters.h"
 #include "accel/parts/sah_partition.h"
 #include "accel/parts/sah_sweep.h"
 
@@ -178,16 +179,17 @@ class Compacter {
 }  // namespace
 
 Parameter sah_method_parameter() {
-  return choice_parameter("build", "binned", {"binned", "sweep"}, "how the binary tree is built");
+  return choice_parameter("build", "binned", {"binned", "fast", "sweep"}, "how the binary tree is built");
 }
 
 SahMethod sah_method(const Arguments& arguments) {
-  return arguments.text("build") == "sweep" ? SahMethod::sweep : SahMethod::binned;
+  const std::string& method = arguments.text("build");
+  return method == "fast" ? SahMethod::fast : method == "sweep" ? SahMethod::sweep : SahMethod::binned;
 }
 
 template <class Real>
-std::vector<BoxedObject<Real>> boxed_objects(const Geometry<Real>& geometry) {
-  std::vector<BoxedObject<Real>> objects(geometry.size());
+HugeVector<BoxedObject<Real>> boxed_objects(const Geometry<Real>& geometry) {
+  HugeVector<BoxedObject<Real>> objects(geometry.size());
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, geometry.size()), [&](const auto& part) {
     for (std::uint32_t object = part.begin(); object < part.end(); ++object)
       objects[object] = {geometry.bounds(object), object};
@@ -195,20 +197,46 @@ std::vector<BoxedObject<Real>> boxed_objects(const Geometry<Real>& geometry) {
   return objects;
 }
 
+namespace {
+
+/// The tree over objects in the order that its leaves name, with gaps between nodes.
 template <class Real>
-PairTree<Real> sah_tree(std::span<BoxedObject<Real>> objects, const SahConfig& config) {
-  PairTree<Real> tree;
-  if (objects.empty()) return tree;
+PairTree<Real> sparse_tree(std::span<BoxedObject<Real>> objects, const SahConfig& config) {
   const Extent<Real> extent = SahBuilder<Real>::extent_of(objects);
-  tree.bounds = Box<Real>(extent.box);
+  PairTree<Real> tree{.bounds = Box<Real>(extent.box)};
   tree.nodes.resize(objects.size() - 1);
   tree.root = SahBuilder<Real>(objects, config, tree.nodes.data()).build(extent);
+  return tree;
+}
+
+/// The tree over clusters of objects, which are its leaves.
+template <class Real>
+PairTree<Real> tree_of_clusters(std::span<BoxedObject<Real>> objects, const SahConfig& config) {
+  SahClusters<Real> clusters(objects, SahBuilder<Real>::extent_of(objects), config.max_objects);
+  HugeVector<BoxedObject<Real>> boxed = clusters.boxed();
+  PairTree<Real> tree = sparse_tree<Real>(boxed, {.max_objects = 1});
+  const std::vector<ChildReference> leaves = clusters.arrange(boxed);
+  const auto name_objects = [&](ChildReference& child) {
+    if (child.leaf()) child = leaves[child.first];
+  };
+  name_objects(tree.root);
+  for (PairNode<Real>& node : tree.nodes) name_objects(node.child[0]), name_objects(node.child[1]);
+  return tree;
+}
+
+}  // namespace
+
+template <class Real>
+PairTree<Real> sah_tree(std::span<BoxedObject<Real>> objects, const SahConfig& config) {
+  if (objects.empty()) return {};
+  if (config.method == SahMethod::fast) return tree_of_clusters(objects, config);
+  PairTree<Real> tree = sparse_tree(objects, config);
   // Where every object has a leaf of its own no number is left out.
   return config.max_objects == 1 ? std::move(tree) : Compacter<Real>(tree).compacted();
 }
 
-#define RAYSHOOT_SAH_BUILD(REAL)                                                \
-  template std::vector<BoxedObject<REAL>> boxed_objects(const Geometry<REAL>&); \
+#define RAYSHOOT_SAH_BUILD(REAL)                                               \
+  template HugeVector<BoxedObject<REAL>> boxed_objects(const Geometry<REAL>&); \
   template PairTree<REAL> sah_tree(std::span<BoxedObject<REAL>>, const SahConfig&);
 RAYSHOOT_SAH_BUILD(float)
 RAYSHOOT_SAH_BUILD(double)

@@ -6,8 +6,9 @@
 
 namespace rayshoot {
 
-/// How a hierarchy of boxes is built: between bins of centres, or by trying every split.
-enum class SahMethod { binned, sweep };
+/// How a hierarchy of boxes is built: between bins of centres; so over clusters of objects,
+/// which become leaves; or by trying every split.
+enum class SahMethod { binned, fast, sweep };
 
 /// Parameters of the build; bvh_sah's manual page explains them.
 struct SahConfig {
@@ -22,7 +23,7 @@ SahMethod sah_method(const Arguments& arguments);
 
 /// The objects of a geometry with their bounds.
 template <class Real>
-std::vector<BoxedObject<Real>> boxed_objects(const Geometry<Real>& geometry);
+HugeVector<BoxedObject<Real>> boxed_objects(const Geometry<Real>& geometry);
 
 /// The tree over boxed objects, which are reordered as its leaves name them. It is the same however many threads there are.
 template <class Real>

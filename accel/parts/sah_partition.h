@@ -20,29 +20,43 @@ struct SahHalves {
   }
 };
 
+/// Exchange two objects in whole vectors: what is written in smaller pieces cannot be read at once.
+template <class Real>
+void exchange(BoxedObject<Real>& a, BoxedObject<Real>& b) {
+  struct Vectors {
+    Lanes<Real> half[2];
+  };
+  static_assert(sizeof(Vectors) == sizeof a);
+  Vectors of_a, of_b;
+  std::memcpy(&of_a, &a, sizeof a);
+  std::memcpy(&of_b, &b, sizeof b);
+  std::memcpy(static_cast<void*>(&a), &of_b, sizeof a);
+  std::memcpy(static_cast<void*>(&b), &of_a, sizeof b);
+}
+
 /// Reorder a range so that what goes left comes first. Without a branch, since which way an object goes cannot be
-/// guessed: each is exchanged with the first of the right part and counts as left or not, and each is added to both
-/// extents or, where it does not belong, to none.
+/// guessed: each is exchanged with the first of the right part and counts as left or not, and its centre is
+/// included on one side and nothing on the other. The boxes of the parts are known from the bins.
 template <class Real>
 SahHalves<Real> partition(std::span<BoxedObject<Real>> objects, const Bins<Real>& bins,
                           const SahSplit& split) {
-  // Nothing in here depends on what is in memory but the objects.
   std::size_t left_count = 0;
-  Extent<Real> left, right;
-  const auto include_where = [](const auto& here, Extent<Real>& extent, const LaneBox<Real>& box) {
-    const Lanes<Real> twice_centre = box.lo + box.hi;
-    const BoxUnion<Real> none = BoxUnion<Real>::empty();
-    extent.box.include(here ? box.lo : none.lo, here ? box.hi : none.hi);
-    extent.twice_centres.include(here ? twice_centre : none.lo, here ? twice_centre : none.hi);
-  };
+  SahHalves<Real> halves;
+  BoxUnion<Real> left = halves.left.twice_centres, right = left;
+  const BoxUnion<Real> none = left;
   for (BoxedObject<Real>& object : objects) {
+    const LaneBox<Real> box = object.lanes();
+    const Lanes<Real> twice_centre = box.lo + box.hi;
     const auto goes_left = bins.goes_left_lanes(object, split);
-    include_where(goes_left, left, object.lanes());
-    include_where(~goes_left, right, object.lanes());
-    std::swap(object, objects[left_count]);
+    left.include(goes_left ? twice_centre : none.lo, goes_left ? twice_centre : none.hi);
+    right.include(goes_left ? none.lo : twice_centre, goes_left ? none.hi : twice_centre);
+    exchange(object, objects[left_count]);
     left_count += static_cast<std::size_t>(goes_left[0] & 1);
   }
-  return {left_count, left, right};
+  halves.left_count = left_count;
+  halves.left = {bins.left_box(split), left};
+  halves.right = {bins.right_box(split), right};
+  return halves;
 }
 
 /// The same by all threads: first blocks, then what stands on the wrong side of the middle changes places in pairs. The
@@ -73,7 +87,7 @@ SahHalves<Real> partition_in_parallel(std::span<BoxedObject<Real>> objects, cons
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, wrong_left.size(), kBlock), [&](const auto& pairs) {
     for (std::size_t i = pairs.begin(); i < pairs.end(); ++i)
-      std::swap(objects[wrong_left[i]], objects[wrong_right[i]]);
+      exchange(objects[wrong_left[i]], objects[wrong_right[i]]);
   });
   return whole;
 }

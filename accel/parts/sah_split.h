@@ -1,5 +1,7 @@
 #pragma once
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <span>
@@ -15,7 +17,7 @@ struct alignas(4 * sizeof(Real)) BoxedObject {
   Box<Real> box;
   std::uint32_t object;
   /// Fills the lanes, so that copies are whole vectors.
-  std::uint32_t padding[sizeof(Real) == sizeof(float) ? 1 : 3] = {};
+  std::uint32_t padding[sizeof(Real) == sizeof(float) ? 1 : 3];
 
   /// Twice the box's centre along an axis.
   Real twice_centre(int axis) const { return box.lo[axis] + box.hi[axis]; }
@@ -41,12 +43,16 @@ struct BoxUnion {
   void include(const BoxUnion& other) { include(other.lo, other.hi); }
 
   explicit operator Box<Real>() const { return Box<Real>(LaneBox<Real>{lo, hi}); }
-  /// `Box::surface_area`, unless it is empty.
-  double surface_area() const {
-    const WideLanes e = __builtin_convertvector(hi - lo, WideLanes);
-    const WideLanes products = e * __builtin_shufflevector(e, e, 1, 2, 0, 3);
-    return 2 * (products[0] + products[1] + products[2]);
+  /// Half of `Box::surface_area`, unless it is empty: the costs of splits are compared in these.
+  double half_area() const {
+    const WideLanes extent = in_double(hi - lo);
+    const WideLanes products = extent * __builtin_shufflevector(extent, extent, 1, 2, 0, 3);
+    return products[0] + products[1] + products[2];
   }
+
+ private:
+  static WideLanes in_double(const Lanes<float>& a) { return _mm256_cvtps_pd(a); }
+  static WideLanes in_double(const WideLanes& a) { return a; }
 };
 
 /// The union of the boxes, and of the (doubled) centres, of a range of objects.
@@ -113,10 +119,17 @@ class Bins {
   /// The cheapest split between bins that leaves objects on both sides.
   SahSplit best(const Extent<Real>& parent) const {
     SahSplit best;
-    const double parent_area = parent.box.surface_area();
     for (int axis = 0; axis < 3; ++axis)
-      if (scale_[axis] > 0) consider(axis, parent_area, best);
+      if (scale_[axis] > 0) consider(axis, best);
+    best.cost /= parent.box.half_area();
     return best;
+  }
+  /// The box of all objects to the left of a split, or to the right.
+  BoxUnion<Real> left_box(const SahSplit& split) const {
+    return united(split.axis, 0, static_cast<int>(split.place));
+  }
+  BoxUnion<Real> right_box(const SahSplit& split) const {
+    return united(split.axis, static_cast<int>(split.place), count_);
   }
 
   /// Whether an object belongs to the left part of a split: `add` put it into one of its bins.
@@ -132,25 +145,28 @@ class Bins {
   Real position(const BoxedObject<Real>& object, int axis) const {
     return (object.twice_centre(axis) - lo_[axis]) * scale_[axis];
   }
-  void consider(int axis, double parent_area, SahSplit& best) const {
+  BoxUnion<Real> united(int axis, int first, int last) const {
+    BoxUnion<Real> box = BoxUnion<Real>::empty();
+    for (int bin = first; bin < last; ++bin) box.include(bins_[axis][bin]);
+    return box;
+  }
+  void consider(int axis, SahSplit& best) const {
     double right_cost[kMost];
-    std::uint32_t right_count[kMost];
     BoxUnion<Real> right = BoxUnion<Real>::empty();
-    std::uint32_t count = 0;
+    double count = 0;
     for (int bin = count_ - 1; bin > 0; --bin) {
       right.include(bins_[axis][bin]);
       count += counts_[axis][bin];
-      right_cost[bin] = right.surface_area() * count;
-      right_count[bin] = count;
+      // A part without objects makes no split: the area of its box is infinite, or not a number with the count.
+      right_cost[bin] = right.half_area() * count;
     }
     BoxUnion<Real> left = BoxUnion<Real>::empty();
     count = 0;
     for (int bin = 1; bin < count_; ++bin) {
       left.include(bins_[axis][bin - 1]);
       count += counts_[axis][bin - 1];
-      const double cost = (left.surface_area() * count + right_cost[bin]) / parent_area;
-      if (cost < best.cost && count > 0 && right_count[bin] > 0)
-        best = {axis, static_cast<std::size_t>(bin), cost};
+      const double cost = left.half_area() * count + right_cost[bin];
+      if (cost < best.cost) best = {axis, static_cast<std::size_t>(bin), cost};
     }
   }
 
@@ -176,21 +192,21 @@ SahSplit sweep_split(std::span<BoxedObject<Real>> objects, const Extent<Real>& p
   SahSplit best;
   const std::size_t count = objects.size();
   std::vector<double> right_cost(count);
-  const double parent_area = parent.box.surface_area();
   for (int axis = 0; axis < 3; ++axis) {
     sort_by_centre(objects, axis);
     BoxUnion<Real> right = BoxUnion<Real>::empty();
     for (std::size_t i = count - 1; i > 0; --i) {
       right.include(objects[i].lanes());
-      right_cost[i] = right.surface_area() * static_cast<double>(count - i);
+      right_cost[i] = right.half_area() * static_cast<double>(count - i);
     }
     BoxUnion<Real> left = BoxUnion<Real>::empty();
     for (std::size_t i = 1; i < count; ++i) {
       left.include(objects[i - 1].lanes());
-      const double cost = (left.surface_area() * static_cast<double>(i) + right_cost[i]) / parent_area;
+      const double cost = left.half_area() * static_cast<double>(i) + right_cost[i];
       if (cost < best.cost) best = {axis, i, cost};
     }
   }
+  best.cost /= parent.box.half_area();
   return best;
 }
 

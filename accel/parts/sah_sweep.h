@@ -19,7 +19,7 @@ class SweptSubtree {
   /// Of objects that stand from `first` on in the tree's order; it reorders them.
   SweptSubtree(std::span<BoxedObject<Real>> objects, std::size_t first, PairNode<Real>* nodes)
       : objects_(objects), first_(static_cast<std::uint32_t>(first)), nodes_(nodes) {
-    std::copy(objects.begin(), objects.end(), copies_);
+    std::memcpy(static_cast<void*>(copies_), objects.data(), objects.size_bytes());
     for (std::size_t i = 0; i < objects.size(); ++i) boxes_[i] = objects[i].lanes();
     for (int axis = 0; axis < 3; ++axis) sort(axis);
   }
@@ -36,8 +36,9 @@ class SweptSubtree {
                        const KeepsLeaf& keeps_leaf) {
     if (last - first == 1) return leaf(first, last);
     SahSplit best;
-    const double area = box.surface_area();
-    for (int axis = 0; axis < 3; ++axis) sweep(axis, first, last, area, best);
+    // Two objects can be split in one way only.
+    for (int axis = 0; axis < (last - first == 2 ? 1 : 3); ++axis) sweep(axis, first, last, best);
+    best.cost /= box.half_area();
     if (keeps_leaf(static_cast<std::size_t>(last - first), best)) return leaf(first, last);
     // No split helps where all boxes are the same: cut in the middle then.
     if (!(best.cost < last - first)) best = {0, static_cast<std::size_t>(first + (last - first) / 2)};
@@ -54,41 +55,45 @@ class SweptSubtree {
   }
 
   ChildReference leaf(int first, int last) {
-    for (int i = first; i < last; ++i) objects_[i] = copies_[order_[0][i]];
+    for (int i = first; i < last; ++i)
+      std::memcpy(static_cast<void*>(&objects_[i]), &copies_[order_[0][i]], sizeof objects_[i]);
     return {first_ + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first)};
   }
 
   /// Each object's place along an axis is the number of those before it: by centre, equal ones as they stand.
   void sort(int axis) {
-    constexpr int kAtOnce = 8;
-    Real centres[kSweptObjects];
+    constexpr int kAtOnce = 4;
     const int count = static_cast<int>(objects_.size());
-    std::fill_n(centres, kSweptObjects, Box<Real>::infinity());
+    Real centres[kSweptObjects];
     for (int i = 0; i < count; ++i) centres[i] = copies_[i].twice_centre(axis);
-    for (int i = 0; i < count; ++i) {
-      int places[kAtOnce] = {};
-      const Real centre = centres[i];
-      for (int from = 0; from < count; from += kAtOnce)
-        for (int j = 0; j < kAtOnce; ++j)
-          places[j] += (centres[from + j] < centre) | ((centres[from + j] == centre) & (from + j < i));
-      int place = 0;
-      for (const int some : places) place += some;
-      order_[axis][place] = static_cast<std::uint8_t>(i);
+    std::fill(centres + count, centres + kSweptObjects, Box<Real>::infinity());
+    for (int from = 0; from < count; from += kAtOnce) {
+      const Lanes<Real> centre = read_lanes<Real>(centres, static_cast<std::size_t>(from));
+      auto minus_place = centre < centre;
+      auto self = minus_place;
+      for (int k = 0; k < kAtOnce; ++k) self[k] = from + k;
+      for (int i = 0; i < count; ++i) {
+        const Lanes<Real> other = Lanes<Real>{} + centres[i];
+        minus_place += (other < centre) | ((other == centre) & (self > i));
+      }
+      for (int k = 0; k < std::min(kAtOnce, count - from); ++k)
+        order_[axis][-minus_place[k]] = static_cast<std::uint8_t>(from + k);
     }
   }
 
-  void sweep(int axis, int first, int last, double parent_area, SahSplit& best) const {
+  void sweep(int axis, int first, int last, SahSplit& best) const {
     const std::uint8_t* const order = order_[axis];
-    double right_cost[kSweptObjects];
+    double right_cost[kSweptObjects], count = 0;
     BoxUnion<Real> right = BoxUnion<Real>::empty();
     for (int i = last - 1; i > first; --i) {
       right.include(boxes_[order[i]]);
-      right_cost[i] = right.surface_area() * (last - i);
+      right_cost[i] = right.half_area() * ++count;
     }
     BoxUnion<Real> left = BoxUnion<Real>::empty();
+    count = 0;
     for (int i = first + 1; i < last; ++i) {
       left.include(boxes_[order[i - 1]]);
-      const double cost = (left.surface_area() * (i - first) + right_cost[i]) / parent_area;
+      const double cost = left.half_area() * ++count + right_cost[i];
       if (cost < best.cost) best = {axis, static_cast<std::size_t>(i), cost};
     }
   }

@@ -15,6 +15,8 @@ constexpr int kParallelDepth = 10;
 /// Eight costs at once (the vector extension of GCC and Clang), and as many choices.
 typedef float Costs __attribute__((vector_size(32)));
 typedef std::int32_t Choices __attribute__((vector_size(32)));
+typedef std::uint8_t Bytes __attribute__((vector_size(8)));
+constexpr float kNever = std::numeric_limits<float>::infinity();
 
 /// After T. Karras & S. Laine for leaves and H. Ylitie, T. Karras & S. Laine, "Efficient incoherent ray traversal on GPUs
 /// through compressed wide BVHs", 2017, for nodes: the least cost of every subtree as a forest of at most so many
@@ -54,7 +56,7 @@ class Widener {
     std::uint32_t first, count;
     /// Of at most i + 1 trees, those that go to the left child; 0 where one tree less is as good. For one tree, those of
     /// a node, or 0 for a leaf.
-    std::uint8_t left[kWideWidth - 1];
+    Bytes left;
   };
   /// Up to eight trees.
   struct Trees {
@@ -106,38 +108,43 @@ class Widener {
 
     Forest& here = forests_[subtree.reference.first];
     here.first = first(left), here.count = count(left) + count(right);
-    Choices to_left;
-    Costs cost = shared(of_left, of_right, to_left);
+    Choices to_left = {};
+    const Costs exactly = shared(of_left, of_right, to_left, std::make_index_sequence<kWideWidth - 1>());
     // One tree is a node of eight, or a leaf.
-    float least = own_area + cost[kWideWidth - 1];
-    here.left[0] = static_cast<std::uint8_t>(to_left[kWideWidth - 1]);
+    float least = own_area + exactly[kWideWidth - 1];
+    std::int32_t of_one = to_left[kWideWidth - 1];
     const float as_leaf = static_cast<float>(costs_.of_leaf(here.count)) * own_area;
-    if (here.count <= costs_.max_objects && as_leaf <= least) least = as_leaf, here.left[0] = 0;
-    cost[0] = least;
-    for (int more = 1; more < kWideWidth - 1; ++more) {
-      const bool pays = cost[more] < least;
-      cost[more] = least = pays ? cost[more] : least;
-      here.left[more] = pays ? static_cast<std::uint8_t>(to_left[more]) : 0;
-    }
-    return cost;
+    if (here.count <= costs_.max_objects && as_leaf <= least) least = as_leaf, of_one = 0;
+    // More trees need not be made where less are as good.
+    Costs at_most = exactly;
+    at_most[0] = least;
+    at_most = min_lanes(at_most, behind<1>(at_most));
+    at_most = min_lanes(at_most, behind<2>(at_most));
+    at_most = min_lanes(at_most, behind<4>(at_most));
+    to_left = exactly < behind<1>(at_most) ? to_left : Choices{};
+    to_left[0] = of_one;
+    here.left = __builtin_convertvector(to_left, Bytes);
+    return at_most;
   }
 
-  /// The least costs of two subtrees as 1, 2 ... 8 trees, which is none for one, and how many of these go to the left one.
-  static Costs shared(const Costs& left, const Costs& right, Choices& to_left) {
-    constexpr float never = std::numeric_limits<float>::infinity();
-    float behind[2 * kWideWidth];
-    std::fill_n(behind, kWideWidth, never);
-    std::memcpy(behind + kWideWidth, &right, sizeof right);
-    Costs least = Costs{} + never;
-    to_left = Choices{} + 1;
-    for (int trees = 1; trees < kWideWidth; ++trees) {
-      Costs rest;
-      std::memcpy(&rest, behind + kWideWidth - trees, sizeof rest);
-      const Costs sum = left[trees - 1] + rest;
+  /// The least costs of two subtrees as exactly 1, 2 ... 8 trees, which is none for one, and how many of these go to the left one.
+  template <std::size_t... kTrees>
+  static Costs shared(const Costs& left, const Costs& right, Choices& to_left,
+                      std::index_sequence<kTrees...>) {
+    Costs least = Costs{} + kNever;
+    const auto consider = [&](const Costs& sum, int trees) {
       to_left = sum < least ? Choices{} + trees : to_left;
-      least = sum < least ? sum : least;
-    }
+      least = min_lanes(sum, least);
+    };
+    (consider(left[kTrees] + behind<kTrees + 1>(right), kTrees + 1), ...);
     return least;
+  }
+  /// Costs moved to so many trees more.
+  template <int kMore>
+  static Costs behind(const Costs& costs) {
+    const Costs never = Costs{} + kNever;
+    return __builtin_shufflevector(never, costs, 8 - kMore, 9 - kMore, 10 - kMore, 11 - kMore, 12 - kMore,
+                                   13 - kMore, 14 - kMore, 15 - kMore);
   }
 
   /// Lay out the top of the tree, then its parts at once, and put them one behind the other.

@@ -8,7 +8,7 @@ const WideKernels kWideKernelsAvx2{"avx2", WideSearch<WideAvx2>::closest_of_all,
 
 float other_hit_distance(const WideScene& scene, std::uint32_t place, Ray<float> ray, float reach) {
   ray.t_max = reach;
-  return scene.geometry.hit_distance(place, ray);
+  return scene.geometry.hit_distance(scene.order[place], ray);
 }
 
 bool has_avx512() {
