@@ -3,10 +3,13 @@
 // (3), after Goldsmith & Salmon 1987.
 //
 // Idea       Split the objects in two, again and again, where equation (3) expects the least cost. Ranges of
-//            many objects are split between bins of their centres, small ranges between any two neighbours in
-//            sorted order. A ray descends into the nearer child first and leaves out what lies beyond the
-//            nearest hit so far.
-// Parameters split           sweep sorts small ranges and tries every split, binned uses 32 bins throughout
+//            many objects are split between bins of their centres, those of at most 32 objects between any two
+//            neighbours in sorted order. A ray descends into the nearer child first and leaves out what lies
+//            beyond the nearest hit so far.
+// Parameters build           binned uses 32 bins, 16 for at most 512 objects; sweep tries every split of every range,
+//                            which takes ten times as long and hardly costs less; fast cuts clusters of at most
+//                            max_objects at the middle of their longest axis, after J. Pantaleoni & D. Luebke,
+//                            "HLBVH", 2010, and builds over these
 //            max_objects     objects a leaf may hold at the most; 4, since a few tests cost no more than a
 //                            step
 //            traversal_cost  cost of testing a pair of volumes in units of a ray-object test; 1, since a
@@ -37,21 +40,20 @@ class BvhSah {
             .family = "bounding_volume",
             .survey_section = "4",
             .paper = "Wald 2007; Goldsmith & Salmon 1987",
-            .parameters = {choice_parameter("split", "sweep", {"sweep", "binned"},
-                                            "how ranges of at most 256 objects are split"),
+            .parameters = {sah_method_parameter(),
                            integer_parameter("max_objects", 4, 1, 64, "objects a leaf may hold at the most"),
                            real_parameter("traversal_cost", 1, 0, 100,
                                           "cost of testing a pair of volumes, in ray-object tests")}};
   }
   static Config configure(const Arguments& arguments) {
-    return {.sweep = arguments.text("split") == "sweep",
+    return {.method = sah_method(arguments),
             .max_objects = static_cast<std::size_t>(arguments.integer("max_objects")),
             .traversal_cost = arguments.real("traversal_cost")};
   }
 
   static BvhSah build(const BuildInput<Real>& in, const Config& config) {
     BvhSah bvh;
-    std::vector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
+    HugeVector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
     bvh.tree_ = sah_tree<Real>(objects, config);
     bvh.order_.reserve(objects.size());
     for (const BoxedObject<Real>& object : objects) bvh.order_.push_back(object.object);

@@ -8,10 +8,13 @@
 //            intersector is fast, `closest` and `any` in float are kernels: the triangles of a leaf lie side by side
 //            and get the scalar test, operation by operation in double precision, at once.
 // Parameters instructions  best takes AVX-512 where the processor has it: eight triangles at once, in AVX2 four
-//            split         how bvh_sah splits small ranges of the binary tree
+//            mode          single traces ray by ray; batch, where there are kernels, takes many rays at a time: coherent
+//                          ones in packets that part where the rays do, others sorted by where they start and go
+//            build         how the binary tree is built: binned, sweep or fast, as bvh_sah's; fast takes half the time,
+//                          and its leaves are clusters, the smallest of which are joined
 //            split_budget  slivers, whose boxes are mostly void, are cut into pieces with boxes of their own, so many for
-//                          each object of the scene; 5 makes hair four times as fast for six times the memory, and
-//                          nothing is cut where there are no slivers
+//                          each object of the scene; 5 makes hair up to twice as fast for nine times the memory, and
+//                          nothing is cut where rays meet few slivers
 //            max_objects   objects a leaf may hold at the most; 8, as many as are tested at once
 //            leaf_cost     cost of one test in a leaf, of eight objects where there are kernels, of one otherwise, in
 //                          tests of a node's children; 1, and up to 2.5 makes no difference of note
@@ -23,7 +26,7 @@
 //            not finite, and empty ones, hit nothing and are not looked at.
 // Cost       equation (3), exactly, for uniformly distributed rays without occlusion.
 // Weak       spheres, cones and polygons are tested one by one; single precision alone has kernels, and so has the
-//            fast intersector alone. Long thin objects whose boxes are mostly void.
+//            fast intersector alone. Slivers, where the memory for cutting them is dear.
 
 #include <fmt/format.h>
 
@@ -47,9 +50,13 @@ class BvhWide {
   using Scalar = Real;
   struct Config {
     std::string instructions;
-    bool batch, sweep;
+    bool batch;
+    SahMethod method;
     double split_budget;
     WideCosts costs;
+
+    /// Clusters of a fast build are not divided; of others every object can be told from every other.
+    std::size_t binary_leaf() const { return method == SahMethod::fast ? costs.max_objects : 1; }
   };
   struct Scratch {
     RayOrder order;
@@ -65,8 +72,7 @@ class BvhWide {
         .parameters = {
             choice_parameter("instructions", "best", {"best", "avx2"}, "instructions of the timed searches"),
             choice_parameter("mode", "single", {"single", "batch"}, "how rays of a batch are traced"),
-            choice_parameter("split", "sweep", {"sweep", "binned"},
-                             "how ranges of at most 256 objects are split"),
+            sah_method_parameter(),
             real_parameter("split_budget", 5, 0, 63, "boxes that are spent on slivers, for each object"),
             integer_parameter("max_objects", 8, 1, 8, "objects a leaf may hold at the most"),
             real_parameter("leaf_cost", 1, 0, 100,
@@ -75,7 +81,7 @@ class BvhWide {
   static Config configure(const Arguments& arguments) {
     return {.instructions = arguments.text("instructions"),
             .batch = arguments.text("mode") == "batch",
-            .sweep = arguments.text("split") == "sweep",
+            .method = sah_method(arguments),
             .split_budget = arguments.real("split_budget"),
             .costs = {.leaf = arguments.real("leaf_cost"),
                       .max_objects = static_cast<std::uint32_t>(arguments.integer("max_objects"))}};
@@ -89,10 +95,9 @@ class BvhWide {
     const bool at_once = std::same_as<Real, float> && triangles_suit(in.geometry);
     WideCosts costs = config.costs;
     if (!at_once) costs.objects_at_once = 1;
-    std::vector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
+    HugeVector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
     bvh.margin_ = split_slivers(in.geometry, config.split_budget, objects);
-    bvh.copies_ = objects.size() - in.geometry.size();
-    bvh.tree_ = widened_tree(sah_tree<Real>(objects, {.sweep = config.sweep, .max_objects = 1}), costs);
+    bvh.tree_ = widened_tree(sah_tree<Real>(objects, {config.method, config.binary_leaf()}), costs);
     bvh.order_.reserve(objects.size());
     for (const BoxedObject<Real>& object : objects) bvh.order_.push_back(object.object);
     if constexpr (std::same_as<Real, float>)
@@ -146,28 +151,27 @@ class BvhWide {
     });
   }
 
-  bool kernels_serve(const Geometry<Real>& arranged) const {
-    return std::same_as<Real, float> && triangles_suit(arranged);
+  bool kernels_serve(const Geometry<Real>& geometry) const {
+    return std::same_as<Real, float> && triangles_suit(geometry);
   }
   /// Only among many rays there are many alike.
   std::size_t rays_per_batch() const { return batch_ ? std::size_t{1} << 20 : kRaysPerBatch; }
-  void kernel_closest(const Geometry<Real>& arranged, std::span<const Ray<Real>> rays,
+  void kernel_closest(const Geometry<Real>& geometry, std::span<const Ray<Real>> rays,
                       std::span<Hit<Real>> hits, Scratch& scratch) const {
     if constexpr (std::same_as<Real, float>)
-      kernels_->closest({tree_, triangles_, arranged, order_, margin_}, batch(rays, scratch), hits);
+      kernels_->closest({tree_, triangles_, geometry, order_, margin_}, batch(rays, scratch), hits);
   }
-  void kernel_any(const Geometry<Real>& arranged, std::span<const Ray<Real>> rays,
+  void kernel_any(const Geometry<Real>& geometry, std::span<const Ray<Real>> rays,
                   std::span<std::uint8_t> blocked, Scratch& scratch) const {
     if constexpr (std::same_as<Real, float>)
-      kernels_->any({tree_, triangles_, arranged, order_, margin_}, batch(rays, scratch), blocked);
+      kernels_->any({tree_, triangles_, geometry, order_, margin_}, batch(rays, scratch), blocked);
   }
 
   StructureStats structure() const {
     StructureStats stats{.nodes = tree_.nodes.size(),
                          .references = order_.size(),
                          .max_depth = tree_.max_depth,
-                         .bytes = tree_.bytes() + triangles_.bytes() + order_.size() * sizeof(order_[0]) +
-                                  copies_ * sizeof(Triangle<Real>)};
+                         .bytes = tree_.bytes() + triangles_.bytes() + order_.size() * sizeof(order_[0])};
     tree_.for_each_leaf([&](const Box<Real>&, WideChild) { ++stats.leaves; });
     stats.nodes += stats.leaves;
     if (!tree_.empty()) {
@@ -226,9 +230,8 @@ class BvhWide {
   WideTree<Real> tree_;
   WideTriangles triangles_;
   std::vector<std::uint32_t> order_;
-  /// Where slivers were cut: by how much boxes must grow for some rays, and objects that are listed again.
+  /// Where slivers were cut: by how much boxes must grow for some rays.
   std::optional<SurfaceMargin<Real>> margin_;
-  std::size_t copies_ = 0;
   /// All positions in turn, in a composition alone.
   std::vector<std::uint32_t> positions_;
   bool batch_ = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "accel/core/engine.h"
@@ -22,15 +23,15 @@ concept TestsObjects = requires(const A a, const typename A::Scratch& scratch) {
 };
 
 /// A technique that brings searches of its own, in the instructions of the processor it runs on, for the geometries that
-/// they serve: the answers are those of `visit`.
+/// they serve: the answers are those of `visit`. They are given the geometry that it was built from.
 template <class A>
-concept HasKernels = requires(const A a, const Geometry<typename A::Scalar>& arranged,
+concept HasKernels = requires(const A a, const Geometry<typename A::Scalar>& geometry,
                               std::span<const Ray<typename A::Scalar>> rays,
                               std::span<Hit<typename A::Scalar>> hits, std::span<std::uint8_t> blocked,
                               typename A::Scratch& scratch) {
-  { a.kernels_serve(arranged) } -> std::same_as<bool>;
-  {a.kernel_closest(arranged, rays, hits, scratch)};
-  {a.kernel_any(arranged, rays, blocked, scratch)};
+  { a.kernels_serve(geometry) } -> std::same_as<bool>;
+  {a.kernel_closest(geometry, rays, hits, scratch)};
+  {a.kernel_any(geometry, rays, blocked, scratch)};
 };
 
 /// Derives the batch interface of an engine from a technique's `visit`.
@@ -44,11 +45,8 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
                         input.geometry) {}
 
   TechniqueEngine(A&& technique, const Geometry<Real>& geometry)
-      : technique_(std::move(technique)), geometry_(&geometry) {
-    if constexpr (OrdersObjects<A>) {
-      arranged_.emplace(geometry_->arranged(technique_.order()));
-      geometry_ = &*arranged_;
-    }
+      : technique_(std::move(technique)), given_(geometry) {
+    if (!has_kernels()) arranged();
   }
 
   std::unique_ptr<EngineScratch> scratch() const override {
@@ -59,7 +57,7 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
                EngineScratch& scratch) const override {
     auto& own = static_cast<Scratch&>(scratch).technique;
     if constexpr (HasKernels<A>)
-      if (technique_.kernels_serve(*geometry_)) return technique_.kernel_closest(*geometry_, rays, hits, own);
+      if (has_kernels()) return technique_.kernel_closest(given_, rays, hits, own);
     with_test(own, [&](const auto& test) { closest_of_all(test, rays, hits, own); });
   }
 
@@ -67,7 +65,7 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
            EngineScratch& scratch) const override {
     auto& own = static_cast<Scratch&>(scratch).technique;
     if constexpr (HasKernels<A>)
-      if (technique_.kernels_serve(*geometry_)) return technique_.kernel_any(*geometry_, rays, blocked, own);
+      if (has_kernels()) return technique_.kernel_any(given_, rays, blocked, own);
     with_test(own, [&](const auto& test) { any_of_all(test, rays, blocked, own); });
   }
 
@@ -80,7 +78,7 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       Work work;
       hits[i] = counted_query(query, rays[i], own, work);
-      work.distinct_objects = own.make_distinct(geometry_->numbers(), name());
+      work.distinct_objects = own.make_distinct(given_.numbers(), name());
       const auto distinct = static_cast<double>(work.distinct_objects);
       sum += {work, square(distinct), i % 2 == 0 ? 0 : square(distinct - neighbour),
               square(static_cast<double>(work.object_tests)), square(static_cast<double>(work.volume_tests))};
@@ -94,7 +92,7 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     auto& own = static_cast<Scratch&>(scratch);
     Work work;
     counted_query(query, ray, own, work);
-    own.make_distinct(geometry_->numbers(), name());
+    own.make_distinct(given_.numbers(), name());
     std::sort(own.candidates.begin(), own.candidates.end());
     return own.candidates;
   }
@@ -143,6 +141,22 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     std::vector<std::uint64_t> last_counted;
   };
 
+  bool has_kernels() const {
+    if constexpr (HasKernels<A>)
+      return technique_.kernels_serve(given_);
+    else
+      return false;
+  }
+  /// The objects in the order of the technique: arranged when they are asked for, since kernels do without.
+  const Geometry<Real>& arranged() const {
+    if constexpr (OrdersObjects<A>) {
+      std::call_once(arranging_, [&] { arranged_.emplace(given_.arranged(technique_.order())); });
+      return *arranged_;
+    } else {
+      return given_;
+    }
+  }
+
   Naming name() const {
     if constexpr (OrdersObjects<A>)
       return {technique_.order().data()};
@@ -156,13 +170,13 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
     if constexpr (TestsObjects<A>)
       function(technique_.object_test(scratch));
     else
-      with_object_test(*geometry_, function);
+      with_object_test(arranged(), function);
   }
   auto counted_test(const typename A::Scratch& scratch) const {
     if constexpr (TestsObjects<A>)
       return technique_.object_test(scratch);
     else
-      return ObjectTest<Real>{*geometry_};
+      return ObjectTest<Real>{arranged()};
   }
 
   /// The timed loops: everything below them is one function to the compiler.
@@ -201,8 +215,9 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
   }
 
   A technique_;
-  std::optional<Geometry<Real>> arranged_;
-  const Geometry<Real>* geometry_;
+  const Geometry<Real>& given_;
+  mutable std::once_flag arranging_;
+  mutable std::optional<Geometry<Real>> arranged_;
 };
 
 /// The registry entry of a technique written as a template over the scalar.

@@ -120,7 +120,7 @@ class AdaptiveGrid {
     };
 
     // Give each cluster a grid, without the objects that are large in it.
-    std::vector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
+    HugeVector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
     const PairTree<Real> tree = sah_tree<Real>(objects, {.max_objects = 1});
     if (!objects.empty())
       for (const auto cluster : ClusterFinder<Real>(objects, tree, config.merge).clusters()) {

@@ -96,7 +96,7 @@ class Cutter {
 
 template <class Real>
 std::optional<SurfaceMargin<Real>> split_slivers(const Geometry<Real>& geometry, double budget,
-                                                 std::vector<BoxedObject<Real>>& objects) {
+                                                 HugeVector<BoxedObject<Real>>& objects) {
   // Measure how much void each object's box holds; by equation (2) that is how often rays meet it.
   std::vector<double> areas(objects.size());
   tbb::parallel_for(std::size_t{0}, objects.size(),
@@ -114,7 +114,7 @@ std::optional<SurfaceMargin<Real>> split_slivers(const Geometry<Real>& geometry,
 
   // Cut.
   const SurfaceMargin<Real> margin(geometry.bounds());
-  std::vector<BoxedObject<Real>> cut(first.back());
+  HugeVector<BoxedObject<Real>> cut(first.back());
   tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
     const auto pieces = static_cast<int>(first[i + 1] - first[i]);
     BoxedObject<Real>* const into = &cut[first[i]];
@@ -129,8 +129,8 @@ std::optional<SurfaceMargin<Real>> split_slivers(const Geometry<Real>& geometry,
 }
 
 template std::optional<SurfaceMargin<float>> split_slivers(const Geometry<float>&, double,
-                                                           std::vector<BoxedObject<float>>&);
+                                                           HugeVector<BoxedObject<float>>&);
 template std::optional<SurfaceMargin<double>> split_slivers(const Geometry<double>&, double,
-                                                            std::vector<BoxedObject<double>>&);
+                                                            HugeVector<BoxedObject<double>>&);
 
 }  // namespace rayshoot

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "accel/parts/huge_pages.h"
 #include "accel/parts/sah_split.h"
 #include "accel/parts/surface_margin.h"
 #include "scenes/core/geometry.h"
@@ -17,6 +18,6 @@ namespace rayshoot {
 /// as much as the ray's rounding. It is already in the boxes for ordinary rays.
 template <class Real>
 std::optional<SurfaceMargin<Real>> split_slivers(const Geometry<Real>& geometry, double budget,
-                                                 std::vector<BoxedObject<Real>>& objects);
+                                                 HugeVector<BoxedObject<Real>>& objects);
 
 }  // namespace rayshoot

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace rayshoot {
@@ -27,6 +28,15 @@ struct HugePages {
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t) { std::free(memory); }
+  /// Elements that nothing is said of hold what they initialise themselves: what is filled by all threads is not filled by one
+  /// before.
+  template <class Element, class... Given>
+  void construct(Element* place, Given&&... given) {
+    if constexpr (sizeof...(Given) == 0)
+      ::new (static_cast<void*>(place)) Element;
+    else
+      ::new (static_cast<void*>(place)) Element(std::forward<Given>(given)...);
+  }
 
   friend bool operator==(const HugePages&, const HugePages&) { return true; }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <vector>
-
+#include "accel/parts/huge_pages.h"
 #include "accel/parts/lanes.h"
 
 namespace rayshoot {
@@ -29,7 +28,7 @@ struct alignas(64) PairNode {
 /// A binary hierarchy of boxes over objects in the order of its leaves. The root may be a leaf.
 template <class Real>
 struct PairTree {
-  std::vector<PairNode<Real>> nodes;
+  HugeVector<PairNode<Real>> nodes;
   ChildReference root{0, 0};
   Box<Real> bounds;
 

@@ -1,39 +1,77 @@
 #pragma once
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "scenes/geometry/box.h"
+#include "scenes/geometry/lanes.h"
 
 namespace rayshoot {
 
 /// An object as a builder of hierarchies sees it.
 template <class Real>
-struct BoxedObject {
+struct alignas(4 * sizeof(Real)) BoxedObject {
   Box<Real> box;
   std::uint32_t object;
+  /// Fills the lanes, so that copies are whole vectors.
+  std::uint32_t padding[sizeof(Real) == sizeof(float) ? 1 : 3];
 
   /// Twice the box's centre along an axis.
   Real twice_centre(int axis) const { return box.lo[axis] + box.hi[axis]; }
+  LaneBox<Real> lanes() const {
+    const Lanes<Real> upper = read_lanes<Real>(box, 2);
+    return {read_lanes<Real>(box, 0), __builtin_shufflevector(upper, upper, 1, 2, 3, 3)};
+  }
+};
+
+/// A union of boxes, in lanes.
+template <class Real>
+struct BoxUnion {
+  Lanes<Real> lo, hi;
+
+  static BoxUnion empty() {
+    return {Lanes<Real>{} + Box<Real>::infinity(), Lanes<Real>{} - Box<Real>::infinity()};
+  }
+
+  void include(const Lanes<Real>& other_lo, const Lanes<Real>& other_hi) {
+    lo = min_lanes(other_lo, lo), hi = max_lanes(other_hi, hi);
+  }
+  void include(const LaneBox<Real>& box) { include(box.lo, box.hi); }
+  void include(const BoxUnion& other) { include(other.lo, other.hi); }
+
+  explicit operator Box<Real>() const { return Box<Real>(LaneBox<Real>{lo, hi}); }
+  /// Half of `Box::surface_area`, unless it is empty: the costs of splits are compared in these.
+  double half_area() const {
+    const WideLanes extent = in_double(hi - lo);
+    const WideLanes products = extent * __builtin_shufflevector(extent, extent, 1, 2, 0, 3);
+    return products[0] + products[1] + products[2];
+  }
+
+ private:
+  static WideLanes in_double(const Lanes<float>& a) { return _mm256_cvtps_pd(a); }
+  static WideLanes in_double(const WideLanes& a) { return a; }
 };
 
 /// The union of the boxes, and of the (doubled) centres, of a range of objects.
 template <class Real>
 struct Extent {
-  Box<Real> box, twice_centres;
+  BoxUnion<Real> box = BoxUnion<Real>::empty(), twice_centres = BoxUnion<Real>::empty();
 
   void include(const BoxedObject<Real>& object) {
-    box.include(object.box);
-    twice_centres.include(object.box.lo + object.box.hi);
+    const LaneBox<Real> lanes = object.lanes();
+    const Lanes<Real> twice_centre = lanes.lo + lanes.hi;
+    box.include(lanes), twice_centres.include(twice_centre, twice_centre);
   }
   void include(const Extent& other) { box.include(other.box), twice_centres.include(other.twice_centres); }
+  /// The axis along which the centres extend farthest.
+  int longest_axis() const { return largest_axis(Box<Real>(twice_centres).extent()); }
 };
 
 /// A way to cut a range of objects in two, with the cost S(left) n(left) + S(right) n(right) of equation (3),
 /// in units of the parent's surface area.
-template <class Real>
 struct SahSplit {
   int axis = -1;
   /// Objects up to this place go left: a bin for a binned split, a position in sorted order for a swept one.
@@ -47,74 +85,95 @@ struct SahSplit {
 template <class Real>
 class Bins {
  public:
-  static constexpr int kCount = 32;
+  static constexpr int kMost = 32;
 
-  explicit Bins(const Box<Real>& twice_centres) : lo_(twice_centres.lo) {
-    const Vec3<Real> extent = twice_centres.extent();
-    for (int axis = 0; axis < 3; ++axis) scale_[axis] = extent[axis] > 0 ? kCount / extent[axis] : 0;
+  explicit Bins(const Extent<Real>& extent, int count = kMost)
+      : count_(count), lo_(extent.twice_centres.lo), scale_{} {
+    const Lanes<Real> length = extent.twice_centres.hi - lo_;
+    for (int axis = 0; axis < 3; ++axis) {
+      // Along an axis that does not divide all objects fall into the first bin.
+      const Real scale = static_cast<Real>(count) / length[axis];
+      scale_[axis] = length[axis] > 0 && scale < Box<Real>::infinity() ? scale : 0;
+      std::fill_n(bins_[axis], count, BoxUnion<Real>::empty());
+      std::fill_n(counts_[axis], count, 0);
+    }
   }
-
-  /// The bin of an object along an axis that divides.
-  int bin(const BoxedObject<Real>& object, int axis) const {
-    const Real position = (object.twice_centre(axis) - lo_[axis]) * scale_[axis];
-    return position < kCount ? static_cast<int>(position) : kCount - 1;
-  }
-  /// Whether the centres extend far enough along the axis to be told apart.
-  bool divides(int axis) const { return scale_[axis] > 0 && scale_[axis] < Box<Real>::infinity(); }
 
   void add(const BoxedObject<Real>& object) {
+    const LaneBox<Real> box = object.lanes();
+    const Lanes<Real> position = (box.lo + box.hi - lo_) * scale_;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!divides(axis)) continue;
-      Bin& into = bins_[axis][bin(object, axis)];
-      into.box.include(object.box);
-      ++into.count;
+      const int bin = std::min(static_cast<int>(position[axis]), count_ - 1);
+      bins_[axis][bin].include(box);
+      ++counts_[axis][bin];
     }
   }
   void add(const Bins& other) {
     for (int axis = 0; axis < 3; ++axis)
-      for (int b = 0; b < kCount; ++b) {
-        bins_[axis][b].box.include(other.bins_[axis][b].box);
-        bins_[axis][b].count += other.bins_[axis][b].count;
+      for (int bin = 0; bin < count_; ++bin) {
+        bins_[axis][bin].include(other.bins_[axis][bin]);
+        counts_[axis][bin] += other.counts_[axis][bin];
       }
   }
 
   /// The cheapest split between bins that leaves objects on both sides.
-  SahSplit<Real> best(const Box<Real>& parent) const {
-    SahSplit<Real> best;
+  SahSplit best(const Extent<Real>& parent) const {
+    SahSplit best;
     for (int axis = 0; axis < 3; ++axis)
-      if (divides(axis)) consider(axis, parent.surface_area(), best);
+      if (scale_[axis] > 0) consider(axis, best);
+    best.cost /= parent.box.half_area();
     return best;
+  }
+  /// The box of all objects to the left of a split, or to the right.
+  BoxUnion<Real> left_box(const SahSplit& split) const {
+    return united(split.axis, 0, static_cast<int>(split.place));
+  }
+  BoxUnion<Real> right_box(const SahSplit& split) const {
+    return united(split.axis, static_cast<int>(split.place), count_);
+  }
+
+  /// Whether an object belongs to the left part of a split: `add` put it into one of its bins.
+  bool goes_left(const BoxedObject<Real>& object, const SahSplit& split) const {
+    return position(object, split.axis) < static_cast<Real>(split.place);
+  }
+  /// The same in lanes, all of which are set or none.
+  auto goes_left_lanes(const BoxedObject<Real>& object, const SahSplit& split) const {
+    return Lanes<Real>{} + position(object, split.axis) < Lanes<Real>{} + static_cast<Real>(split.place);
   }
 
  private:
-  struct Bin {
-    Box<Real> box;
-    std::size_t count = 0;
-  };
-
-  void consider(int axis, double parent_area, SahSplit<Real>& best) const {
-    double right_cost[kCount];
-    std::size_t right_count[kCount];
-    Bin right;
-    for (int b = kCount - 1; b > 0; --b) {
-      right.box.include(bins_[axis][b].box);
-      right.count += bins_[axis][b].count;
-      right_cost[b] = right.box.surface_area() * static_cast<double>(right.count);
-      right_count[b] = right.count;
+  Real position(const BoxedObject<Real>& object, int axis) const {
+    return (object.twice_centre(axis) - lo_[axis]) * scale_[axis];
+  }
+  BoxUnion<Real> united(int axis, int first, int last) const {
+    BoxUnion<Real> box = BoxUnion<Real>::empty();
+    for (int bin = first; bin < last; ++bin) box.include(bins_[axis][bin]);
+    return box;
+  }
+  void consider(int axis, SahSplit& best) const {
+    double right_cost[kMost];
+    BoxUnion<Real> right = BoxUnion<Real>::empty();
+    double count = 0;
+    for (int bin = count_ - 1; bin > 0; --bin) {
+      right.include(bins_[axis][bin]);
+      count += counts_[axis][bin];
+      // A part without objects makes no split: the area of its box is infinite, or not a number with the count.
+      right_cost[bin] = right.half_area() * count;
     }
-    Bin left;
-    for (int b = 1; b < kCount; ++b) {
-      left.box.include(bins_[axis][b - 1].box);
-      left.count += bins_[axis][b - 1].count;
-      if (left.count == 0 || right_count[b] == 0) continue;
-      const double left_cost = left.box.surface_area() * static_cast<double>(left.count);
-      const double cost = (left_cost + right_cost[b]) / parent_area;
-      if (cost < best.cost) best = {axis, static_cast<std::size_t>(b), cost};
+    BoxUnion<Real> left = BoxUnion<Real>::empty();
+    count = 0;
+    for (int bin = 1; bin < count_; ++bin) {
+      left.include(bins_[axis][bin - 1]);
+      count += counts_[axis][bin - 1];
+      const double cost = left.half_area() * count + right_cost[bin];
+      if (cost < best.cost) best = {axis, static_cast<std::size_t>(bin), cost};
     }
   }
 
-  Vec3<Real> lo_, scale_;
-  Bin bins_[3][kCount];
+  int count_;
+  Lanes<Real> lo_, scale_;
+  BoxUnion<Real> bins_[3][kMost];
+  std::uint32_t counts_[3][kMost];
 };
 
 /// Sort a range by the centres along an axis, equal ones by object, so that the order is unique.
@@ -129,26 +188,25 @@ void sort_by_centre(std::span<BoxedObject<Real>> objects, int axis) {
 /// The cheapest of all splits between neighbours in sorted order. Leaves the range sorted along the last
 /// axis.
 template <class Real>
-SahSplit<Real> sweep_split(std::span<BoxedObject<Real>> objects, const Box<Real>& parent,
-                           std::vector<double>& right_cost) {
-  SahSplit<Real> best;
+SahSplit sweep_split(std::span<BoxedObject<Real>> objects, const Extent<Real>& parent) {
+  SahSplit best;
   const std::size_t count = objects.size();
-  right_cost.resize(count);
-  const double parent_area = parent.surface_area();
+  std::vector<double> right_cost(count);
   for (int axis = 0; axis < 3; ++axis) {
     sort_by_centre(objects, axis);
-    Box<Real> right;
+    BoxUnion<Real> right = BoxUnion<Real>::empty();
     for (std::size_t i = count - 1; i > 0; --i) {
-      right.include(objects[i].box);
-      right_cost[i] = right.surface_area() * static_cast<double>(count - i);
+      right.include(objects[i].lanes());
+      right_cost[i] = right.half_area() * static_cast<double>(count - i);
     }
-    Box<Real> left;
+    BoxUnion<Real> left = BoxUnion<Real>::empty();
     for (std::size_t i = 1; i < count; ++i) {
-      left.include(objects[i - 1].box);
-      const double cost = (left.surface_area() * static_cast<double>(i) + right_cost[i]) / parent_area;
+      left.include(objects[i - 1].lanes());
+      const double cost = left.half_area() * static_cast<double>(i) + right_cost[i];
       if (cost < best.cost) best = {axis, i, cost};
     }
   }
+  best.cost /= parent.box.half_area();
   return best;
 }
 

@@ -131,15 +131,15 @@ class SpacetimeBuilder {
   static std::size_t divide(std::span<BoxedObject<Real>> objects, int depth) {
     Extent<Real> extent;
     for (const BoxedObject<Real>& object : objects) extent.include(object);
-    Bins<Real> bins(extent.twice_centres);
+    Bins<Real> bins(extent);
     for (const BoxedObject<Real>& object : objects) bins.add(object);
-    const SahSplit<Real> best = bins.best(extent.box);
+    const SahSplit best = bins.best(extent);
     if (!best.found() || depth >= kBalancedDepth) {
-      sort_by_centre(objects, largest_axis(extent.twice_centres.extent()));
+      sort_by_centre(objects, extent.longest_axis());
       return objects.size() / 2;
     }
     const auto middle = std::partition(objects.begin(), objects.end(), [&](const BoxedObject<Real>& object) {
-      return bins.bin(object, best.axis) < static_cast<int>(best.place);
+      return bins.goes_left(object, best);
     });
     return static_cast<std::size_t>(middle - objects.begin());
   }

@@ -1,8 +1,22 @@
 #include "accel/parts/wide_build.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 namespace rayshoot {
 
 namespace {
+
+/// Subtrees of so many objects and their like are laid out by one thread.
+constexpr std::uint32_t kSequentialObjects = 4096;
+/// Nodes less deep are measured by several threads.
+constexpr int kParallelDepth = 10;
+
+/// Eight costs at once (the vector extension of GCC and Clang), and as many choices.
+typedef float Costs __attribute__((vector_size(32)));
+typedef std::int32_t Choices __attribute__((vector_size(32)));
+typedef std::uint8_t Bytes __attribute__((vector_size(8)));
+constexpr float kNever = std::numeric_limits<float>::infinity();
 
 /// After T. Karras & S. Laine for leaves and H. Ylitie, T. Karras & S. Laine, "Efficient incoherent ray traversal on GPUs
 /// through compressed wide BVHs", 2017, for nodes: the least cost of every subtree as a forest of at most so many
@@ -17,34 +31,44 @@ class Widener {
     tree_.bounds = binary_.bounds;
     if (binary_.empty()) return std::move(tree_);
     const Subtree root{binary_.root, binary_.bounds};
-    if (!root.reference.leaf()) measure(root);
-    tree_.nodes.reserve(binary_.nodes.size() / 3 + 1);
+    measure(root, 0);
+    tree_.nodes.reserve(binary_.nodes.size() / 6 + 1);
     // The root is a node even if the whole fits in a leaf.
-    if (root.reference.leaf() || forest(root).leaf(1)) {
+    if (is_leaf(root)) {
       tree_.nodes.emplace_back();
       tree_.nodes[0].add(root.box, WideChild::leaf(first(root), count(root)));
       tree_.max_depth = 1;
     } else {
-      emit(root, 0);
+      lay_out(root);
     }
     return std::move(tree_);
   }
 
  private:
+  static_assert(kWideWidth == 8, "costs fill one vector");
+
   struct Subtree {
     ChildReference reference;
     Box<Real> box;
   };
   /// Of an interior node of the binary tree.
   struct Forest {
-    /// Least cost as at most i + 1 trees.
-    float cost[kWideWidth - 1];
     std::uint32_t first, count;
     /// Of at most i + 1 trees, those that go to the left child; 0 where one tree less is as good. For one tree, those of
     /// a node, or 0 for a leaf.
-    std::uint8_t left[kWideWidth - 1];
-
-    bool leaf(int trees) const { return left[trees - 1] == 0; }
+    Bytes left;
+  };
+  /// Up to eight trees.
+  struct Trees {
+    Subtree tree[kWideWidth];
+    int count = 0;
+  };
+  /// A part of the tree that one thread lays out: what is below a child of a node.
+  struct Part {
+    Subtree subtree;
+    std::uint32_t node, which, depth;
+    std::vector<WideNode<Real>> nodes{};
+    std::uint32_t max_depth = 0;
   };
 
   const Forest& forest(const Subtree& subtree) const { return forests_[subtree.reference.first]; }
@@ -53,6 +77,9 @@ class Widener {
   }
   std::uint32_t count(const Subtree& subtree) const {
     return subtree.reference.leaf() ? subtree.reference.count : forest(subtree).count;
+  }
+  bool is_leaf(const Subtree& subtree) const {
+    return subtree.reference.leaf() || forest(subtree).left[0] == 0;
   }
   Subtree child(const Subtree& subtree, int side) const {
     const PairNode<Real>& node = binary_.nodes[subtree.reference.first];
@@ -64,71 +91,120 @@ class Widener {
     const double whole = binary_.bounds.surface_area();
     return whole > 0 ? static_cast<float>(box.surface_area() / whole) : 1;
   }
-  float cost(const Subtree& subtree, int trees) const {
-    return subtree.reference.leaf() ? static_cast<float>(costs_.of_leaf(1)) * area(subtree.box)
-                                    : forest(subtree).cost[trees - 1];
-  }
 
-  /// Find the least costs of a subtree, its children's first.
-  void measure(const Subtree& subtree) {
+  /// Find the least costs of a subtree as at most 1, 2 ... 7 trees, its children's first.
+  Costs measure(const Subtree& subtree, int depth) {
+    const float own_area = area(subtree.box);
+    if (subtree.reference.leaf())
+      return Costs{} + static_cast<float>(costs_.of_leaf(subtree.reference.count)) * own_area;
     const Subtree left = child(subtree, 0), right = child(subtree, 1);
-    for (const Subtree& side : {left, right})
-      if (!side.reference.leaf()) measure(side);
+    Costs of_left, of_right;
+    const auto measure_left = [&] { of_left = measure(left, depth + 1); };
+    const auto measure_right = [&] { of_right = measure(right, depth + 1); };
+    if (depth < kParallelDepth)
+      tbb::parallel_invoke(measure_left, measure_right);
+    else
+      measure_left(), measure_right();
+
     Forest& here = forests_[subtree.reference.first];
     here.first = first(left), here.count = count(left) + count(right);
-
-    const auto shared = [&](int trees) {
-      std::pair<float, std::uint8_t> best{std::numeric_limits<float>::infinity(), 1};
-      for (int to_left = 1; to_left < trees; ++to_left) {
-        const int most = kWideWidth - 1;
-        const float sum = cost(left, std::min(to_left, most)) + cost(right, std::min(trees - to_left, most));
-        if (sum < best.first) best = {sum, static_cast<std::uint8_t>(to_left)};
-      }
-      return best;
-    };
-    const float own_area = area(subtree.box);
-    const auto [children, to_left] = shared(kWideWidth);
-    here.cost[0] = own_area + children, here.left[0] = to_left;
+    Choices to_left = {};
+    const Costs exactly = shared(of_left, of_right, to_left, std::make_index_sequence<kWideWidth - 1>());
+    // One tree is a node of eight, or a leaf.
+    float least = own_area + exactly[kWideWidth - 1];
+    std::int32_t of_one = to_left[kWideWidth - 1];
     const float as_leaf = static_cast<float>(costs_.of_leaf(here.count)) * own_area;
-    if (here.count <= costs_.max_objects && as_leaf <= here.cost[0]) here.cost[0] = as_leaf, here.left[0] = 0;
-    for (int trees = 2; trees < kWideWidth; ++trees) {
-      const auto [sum, side] = shared(trees);
-      const bool pays = sum < here.cost[trees - 2];
-      here.cost[trees - 1] = pays ? sum : here.cost[trees - 2];
-      here.left[trees - 1] = pays ? side : 0;
+    if (here.count <= costs_.max_objects && as_leaf <= least) least = as_leaf, of_one = 0;
+    // More trees need not be made where less are as good.
+    Costs at_most = exactly;
+    at_most[0] = least;
+    at_most = min_lanes(at_most, behind<1>(at_most));
+    at_most = min_lanes(at_most, behind<2>(at_most));
+    at_most = min_lanes(at_most, behind<4>(at_most));
+    to_left = exactly < behind<1>(at_most) ? to_left : Choices{};
+    to_left[0] = of_one;
+    here.left = __builtin_convertvector(to_left, Bytes);
+    return at_most;
+  }
+
+  /// The least costs of two subtrees as exactly 1, 2 ... 8 trees, which is none for one, and how many of these go to the left one.
+  template <std::size_t... kTrees>
+  static Costs shared(const Costs& left, const Costs& right, Choices& to_left,
+                      std::index_sequence<kTrees...>) {
+    Costs least = Costs{} + kNever;
+    const auto consider = [&](const Costs& sum, int trees) {
+      to_left = sum < least ? Choices{} + trees : to_left;
+      least = min_lanes(sum, least);
+    };
+    (consider(left[kTrees] + behind<kTrees + 1>(right), kTrees + 1), ...);
+    return least;
+  }
+  /// Costs moved to so many trees more.
+  template <int kMore>
+  static Costs behind(const Costs& costs) {
+    const Costs never = Costs{} + kNever;
+    return __builtin_shufflevector(never, costs, 8 - kMore, 9 - kMore, 10 - kMore, 11 - kMore, 12 - kMore,
+                                   13 - kMore, 14 - kMore, 15 - kMore);
+  }
+
+  /// Lay out the top of the tree, then its parts at once, and put them one behind the other.
+  void lay_out(const Subtree& root) {
+    std::vector<Part> parts;
+    emit(root, 0, tree_.nodes, tree_.max_depth, &parts);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      emit(parts[i].subtree, parts[i].depth, parts[i].nodes, parts[i].max_depth, nullptr);
+    });
+    for (Part& part : parts) {
+      const auto offset = static_cast<std::uint32_t>(tree_.nodes.size());
+      tree_.nodes[part.node].child[part.which] = WideChild::interior(offset);
+      for (WideNode<Real>& node : part.nodes) {
+        for (std::uint32_t which = 0; which < node.children; ++which)
+          if (!node.child[which].is_leaf())
+            node.child[which] = WideChild::interior(offset + node.child[which].node());
+        tree_.nodes.push_back(node);
+      }
+      tree_.max_depth = std::max(tree_.max_depth, part.max_depth);
+      part.nodes = {};
     }
   }
 
-  std::uint32_t emit(const Subtree& subtree, std::uint32_t depth) {
-    tree_.max_depth = std::max(tree_.max_depth, depth + 1);
-    const auto number = static_cast<std::uint32_t>(tree_.nodes.size());
-    tree_.nodes.emplace_back();
-    std::vector<Subtree> children;
+  /// Append the nodes of a subtree, but for small subtrees where `parts` collects them; returns the number of its root.
+  template <class Nodes>
+  std::uint32_t emit(const Subtree& subtree, std::uint32_t depth, Nodes& nodes, std::uint32_t& max_depth,
+                     std::vector<Part>* parts) const {
+    max_depth = std::max(max_depth, depth + 1);
+    const auto number = static_cast<std::uint32_t>(nodes.size());
+    nodes.emplace_back();
+    Trees children;
     share(subtree, forest(subtree).left[0], kWideWidth, children);
-    for (const Subtree& each : children) {
-      const bool is_leaf = each.reference.leaf() || forest(each).leaf(1);
-      const WideChild made =
-          is_leaf ? WideChild::leaf(first(each), count(each)) : WideChild::interior(emit(each, depth + 1));
-      tree_.nodes[number].add(each.box, made);
+    for (int which = 0; which < children.count; ++which) {
+      const Subtree& each = children.tree[which];
+      WideChild made = WideChild::leaf(first(each), count(each));
+      if (!is_leaf(each) && parts && count(each) <= kSequentialObjects)
+        parts->push_back({each, number, static_cast<std::uint32_t>(which), depth + 1});
+      else if (!is_leaf(each))
+        made = WideChild::interior(emit(each, depth + 1, nodes, max_depth, parts));
+      nodes[number].add(each.box, made);
     }
     return number;
   }
   /// Collect the trees of a subtree's children, `to_left` of `trees` from the left one.
-  void share(const Subtree& subtree, int to_left, int trees, std::vector<Subtree>& into) const {
+  void share(const Subtree& subtree, int to_left, int trees, Trees& into) const {
     collect(child(subtree, 0), to_left, into);
     collect(child(subtree, 1), trees - to_left, into);
   }
-  void collect(const Subtree& subtree, int trees, std::vector<Subtree>& into) const {
-    if (subtree.reference.leaf()) return into.push_back(subtree);
+  void collect(const Subtree& subtree, int trees, Trees& into) const {
     trees = std::min(trees, kWideWidth - 1);
-    while (trees > 1 && forest(subtree).left[trees - 1] == 0) --trees;
-    if (trees == 1) return into.push_back(subtree);
-    share(subtree, forest(subtree).left[trees - 1], trees, into);
+    while (trees > 1 && !subtree.reference.leaf() && forest(subtree).left[trees - 1] == 0) --trees;
+    if (trees == 1 || subtree.reference.leaf())
+      into.tree[into.count++] = subtree;
+    else
+      share(subtree, forest(subtree).left[trees - 1], trees, into);
   }
 
   const PairTree<Real>& binary_;
   const WideCosts costs_;
-  std::vector<Forest> forests_;
+  HugeVector<Forest> forests_;
   WideTree<Real> tree_;
 };
 

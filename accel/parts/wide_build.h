@@ -19,7 +19,7 @@ struct WideCosts {
 };
 
 /// The wide tree of least expected cost (equation (3)) that can be made of a binary tree by leaving out nodes and by
-/// turning small subtrees into leaves. The binary tree's leaves hold one object each.
+/// turning small subtrees into leaves.
 template <class Real>
 WideTree<Real> widened_tree(const PairTree<Real>& binary, const WideCosts& costs);
 

@@ -16,7 +16,7 @@ namespace rayshoot {
 struct WideScene {
   const WideTree<float>& tree;
   const WideTriangles& triangles;
-  /// The objects in the order of the tree, for the tests of what is no triangle; and what they are called.
+  /// For the tests of what is no triangle; and the objects in the order of the tree.
   const Geometry<float>& geometry;
   std::span<const std::uint32_t> order;
   /// By how much boxes must grow for some rays, where slivers were cut.

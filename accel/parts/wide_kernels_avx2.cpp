@@ -18,7 +18,7 @@ bool WideBatch::is_coherent() const {
 
 float other_hit_distance(const WideScene& scene, std::uint32_t place, Ray<float> ray, float reach) {
   ray.t_max = reach;
-  return scene.geometry.hit_distance(place, ray);
+  return scene.geometry.hit_distance(scene.order[place], ray);
 }
 
 bool has_avx512() {

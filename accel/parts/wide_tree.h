@@ -55,6 +55,12 @@ struct alignas(64) WideNode {
     }
     child[children++] = which;
   }
+  /// Call visit(which, leaf) for each child that is a leaf.
+  template <class Visit>
+  void for_each_leaf(const Visit& visit) const {
+    for (std::uint32_t which = 0; which < children; ++which)
+      if (child[which].is_leaf()) visit(which, child[which]);
+  }
   Box<Real> box(std::uint32_t which) const {
     Box<Real> box;
     for (int axis = 0; axis < 3; ++axis) {
@@ -79,8 +85,7 @@ struct WideTree {
   template <class Visit>
   void for_each_leaf(const Visit& visit) const {
     for (const WideNode<Real>& node : nodes)
-      for (std::uint32_t which = 0; which < node.children; ++which)
-        if (node.child[which].is_leaf()) visit(node.box(which), node.child[which]);
+      node.for_each_leaf([&](std::uint32_t which, WideChild leaf) { visit(node.box(which), leaf); });
   }
 };
 

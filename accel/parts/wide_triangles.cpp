@@ -1,5 +1,8 @@
 #include "accel/parts/wide_triangles.h"
 
+#include <tbb/parallel_for.h>
+
+#include <atomic>
 #include <bit>
 
 namespace rayshoot {
@@ -24,8 +27,17 @@ WideTriangles::WideTriangles(const Geometry<float>& geometry, std::span<const st
     }
     return others;
   };
-  tree.for_each_leaf(
-      [&](const Box<float>&, WideChild leaf) { has_others_ |= fill(leaf.first(), leaf.count()); });
+  std::atomic<bool> has_others = false;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.nodes.size(), 64), [&](const auto& part) {
+    bool others = false;
+    for (std::size_t node = part.begin(); node < part.end(); ++node)
+      tree.nodes[node].for_each_leaf(
+          [&](std::uint32_t, WideChild leaf) { others |= fill(leaf.first(), leaf.count()); });
+    if (others) has_others = true;
+  });
+  has_others_ = has_others;
+  // What a kernel reads beyond the last leaf.
+  std::fill_n(rows_.data() + kRows * order.size(), kWideWidth, nan);
 }
 
 }  // namespace rayshoot

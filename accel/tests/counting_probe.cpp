@@ -60,9 +60,9 @@ class Tree : public ByHand {
     std::vector<BoxedObject<float>> objects;
     for (std::uint32_t object = 0; object < in.geometry.size(); ++object)
       objects.push_back({in.geometry.bounds(object), object});
-    SahBuilder<float> builder(objects, {});
-    tree.root_ = builder.build();
-    tree.nodes_ = std::move(builder).take_nodes();
+    PairTree<float> pairs = sah_tree<float>(objects, {});
+    tree.root_ = pairs.root;
+    tree.nodes_ = std::move(pairs.nodes);
     for (const BoxedObject<float>& object : objects) tree.order_.push_back(object.object);
     return tree;
   }
@@ -126,7 +126,7 @@ class Tree : public ByHand {
   }
 
  private:
-  std::vector<PairNode<float>> nodes_;
+  HugeVector<PairNode<float>> nodes_;
   std::vector<std::uint32_t> order_;
   ChildReference root_{};
   Box<float> bounds_;

@@ -16,11 +16,7 @@ SlabRay::SlabRay(const Vec3d& origin, const Vec3d& direction, double t_min)
   }
 }
 
-Hierarchy::Hierarchy(std::vector<BoxedObject<double>> objects) : objects_(std::move(objects)) {
-  if (objects_.empty()) return;
-  SahBuilder<double> builder(objects_, SahConfig{});
-  root_ = builder.build();
-  nodes_ = std::move(builder).take_nodes();
-}
+Hierarchy::Hierarchy(std::vector<BoxedObject<double>> objects)
+    : objects_(std::move(objects)), tree_(sah_tree<double>(objects_, {})) {}
 
 }  // namespace rayshoot::exact

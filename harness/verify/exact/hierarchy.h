@@ -78,8 +78,7 @@ class Hierarchy {
   }
 
   std::vector<BoxedObject<double>> objects_;
-  std::vector<PairNode<double>> nodes_;
-  ChildReference root_{0, 0};
+  PairTree<double> tree_;
 };
 
 template <class Visit>
@@ -88,7 +87,7 @@ void Hierarchy::visit(const SlabRay& ray, double reach, const Visit& visit_objec
   Pending stack[kMaxSahDepth + 2];
   int size = 0;
   reach = ray.scaled(reach);
-  stack[size++] = {root_, -std::numeric_limits<double>::infinity()};
+  stack[size++] = {tree_.root, -std::numeric_limits<double>::infinity()};
   while (size > 0) {
     const Pending next = stack[--size];
     if (next.enter > reach) continue;
@@ -96,7 +95,7 @@ void Hierarchy::visit(const SlabRay& ray, double reach, const Visit& visit_objec
       reach = visit_leaf(ray, next.node, reach, visit_object);
       continue;
     }
-    const PairNode<double>& node = nodes_[next.node.first];
+    const PairNode<double>& node = tree_.nodes[next.node.first];
     const auto left = ray.entry(node.boxes.box(0), reach), right = ray.entry(node.boxes.box(1), reach);
     const bool left_first = left && (!right || *left <= *right);
     if (left && !left_first) stack[size++] = {node.child[0], *left};
