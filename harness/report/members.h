@@ -139,6 +139,21 @@ void members(T& predicted, Visitor& visitor) {
   visitor.required("volume_tests_per_ray", predicted.volume_tests_per_ray);
 }
 
+template <Some<SampledPrediction> T, class Visitor>
+void members(T& prediction, Visitor& visitor) {
+  visitor.required("sampled_rays", prediction.sampled_rays);
+  visitor.required("unoccluded", prediction.unoccluded);
+  visitor.required("occluded", prediction.occluded);
+  visitor.required("ordered", prediction.ordered);
+}
+
+template <Some<EndPointOverlap> T, class Visitor>
+void members(T& overlap, Visitor& visitor) {
+  visitor.required("points", overlap.points);
+  visitor.required("object_tests_per_point", overlap.object_tests_per_point);
+  visitor.required("volume_tests_per_point", overlap.volume_tests_per_point);
+}
+
 template <Some<Efficiency> T, class Visitor>
 void members(T& efficiency, Visitor& visitor) {
   visitor.required("m", efficiency.m);
@@ -202,6 +217,9 @@ void members(T& measurement, Visitor& visitor) {
   visitor.optional("strict_work", measurement.strict_work);
   visitor.optional("structure", measurement.structure);
   visitor.optional("predicted", measurement.predicted);
+  visitor.optional("sampled_prediction", measurement.sampled_prediction);
+  visitor.optional("end_point_overlap", measurement.end_point_overlap);
+  visitor.optional("cells_deviation", measurement.cells_deviation);
   visitor.optional("efficiency", measurement.efficiency);
   visitor.optional("errors", measurement.errors);
   visitor.optional("build_ns", measurement.build_ns);

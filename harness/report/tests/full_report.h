@@ -67,6 +67,9 @@ inline report::Report full_report() {
        .strict_work = report::Work{15, 240, 200, 61, 91, 81, 21, 11},
        .structure = report::Structure{64, 63, 40, 120, 1, 4096, {{"void_area_per_object", 0.5}}},
        .predicted = report::Predicted{4.5, 2.25},
+       .sampled_prediction = report::SampledPrediction{7, {4, 2}, {3.5, 1.75}, {3.25, 1.5}},
+       .end_point_overlap = report::EndPointOverlap{1000, 0.125, 0.75},
+       .cells_deviation = 1.375,
        .efficiency = report::Efficiency{0.036, {0.03, 0.042}, 0.14, {0.13, 0.15}},
        .errors =
            report::Errors{

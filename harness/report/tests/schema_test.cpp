@@ -83,6 +83,8 @@ TEST(Schema, HasTheMembersOfTheCode) {
                                                    {"work", cell["work"]},
                                                    {"structure", cell["structure"]},
                                                    {"predicted", cell["predicted"]},
+                                                   {"sampled_prediction", cell["sampled_prediction"]},
+                                                   {"end_point_overlap", cell["end_point_overlap"]},
                                                    {"efficiency", cell["efficiency"]},
                                                    {"thread_times", cell["threads"][0]},
                                                    {"left_out_cell", report["left_out"][0]},
