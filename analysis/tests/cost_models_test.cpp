@@ -4,6 +4,7 @@
 #include <cmath>
 #include <regex>
 
+#include "analysis/cost_models/expected_tests.h"
 #include "analysis/cost_models/verdicts.h"
 #include "analysis/plots/plots.h"
 #include "analysis/tests/find_cell.h"
@@ -251,6 +252,64 @@ TEST(ModelTime, ShowsTheModelThatErrsLeast) {
     EXPECT_NEAR(y0 + (x - x0) / (x1 - x0) * (y1 - y0), y, 0.3);
   }
   EXPECT_EQ(points, 30u);
+}
+
+/// Every model errs by what was planted.
+TEST(ExpectedTests, AreHeldAgainstCountedOnes) {
+  Report report = report_by_law(havrans_law);
+  for (Measurement& cell : report.measurements) {
+    if (rate(cell, &report::Work::volume_tests) == 0) continue;
+    const report::Predicted counted{rate(cell, &report::Work::object_tests),
+                                    rate(cell, &report::Work::volume_tests)};
+    auto wrong = counted, close = counted;
+    wrong.volume_tests_per_ray *= 2, close.object_tests_per_ray *= cell.scene == "scene3" ? 0.9 : 0.96;
+    cell.predicted = wrong;
+    cell.sampled_prediction = report::SampledPrediction{25, wrong, close, counted};
+  }
+  const std::vector<Group> all = groups(report);
+  const std::vector<const CostModel*> models{&model("havran"), &model("equation_3"),
+                                             &model("equation_3_occluded"), &model("equation_3_ordered")};
+  const std::vector<Table> tables = tests_tables(all, models);
+  ASSERT_THAT(tables, SizeIs(3)) << "verdicts, and the cells of two distributions";
+  const auto all_rays = [](std::size_t which) { return 3 * which + 2; };
+  EXPECT_EQ(cell_in_row(tables[0], all_rays(0), "distribution").text, "all");
+  EXPECT_EQ(number_in_row(tables[0], all_rays(0), "cells"), 12);
+  EXPECT_EQ(number_in_row(tables[0], all_rays(0), "right"), 0);
+  EXPECT_NEAR(number_in_row(tables[0], all_rays(0), "max_volumes_percent"), 100, 1e-9);
+  EXPECT_EQ(number_in_row(tables[0], all_rays(1), "right"), 10) << "all but those of scene3";
+  EXPECT_NEAR(number_in_row(tables[0], all_rays(1), "median_objects_percent"), 4, 1e-9);
+  EXPECT_NEAR(number_in_row(tables[0], all_rays(1), "max_objects_percent"), 10, 1e-9);
+  EXPECT_EQ(number_in_row(tables[0], all_rays(2), "right"), 12);
+  EXPECT_THAT(tables[1].rows, SizeIs(6));
+  EXPECT_NEAR(number_in_row(tables[1], 0, "equation_3_volume_error"), 1, 1e-9);
+  EXPECT_NEAR(number_in_row(tables[1], 0, "equation_3_occluded_object_error"), -0.04, 1e-9);
+  EXPECT_TRUE(tests_hold(all, {&model("equation_3_ordered")}, 0.05));
+  EXPECT_FALSE(tests_hold(all, {&model("equation_3_occluded")}, 0.05));
+  EXPECT_TRUE(tests_hold(all, {&model("equation_3_occluded")}, 0.11));
+  EXPECT_FALSE(tests_hold(all, {&model("equation_3_rays"), &model("equation_3")}, 0.05));
+  for (Measurement& cell : report.measurements) cell.predicted.reset(), cell.sampled_prediction.reset();
+  EXPECT_THAT(tests_tables(all, models), IsEmpty());
+  EXPECT_FALSE(tests_hold(all, models, 100)) << "what cannot be checked does not hold";
+}
+
+TEST(EndPointOverlap, PricesBothParts) {
+  Report report = report_by_law(havrans_law);
+  for (std::size_t i = 0; i < report.measurements.size(); ++i) {
+    Measurement& cell = report.measurements[i];
+    if (!cell.predicted) continue;
+    const auto x = static_cast<double>(i);
+    cell.end_point_overlap = report::EndPointOverlap{100, 0.1 * x, 10 / (1 + x)};
+    const double sah = 0.6 * cell.predicted->volume_tests_per_ray + cell.predicted->object_tests_per_ray,
+                 overlap = 0.6 * cell.end_point_overlap->volume_tests_per_point +
+                           cell.end_point_overlap->object_tests_per_point;
+    cell.trace_ns = {100 * (3 * sah + 2 * overlap)};
+  }
+  const Held held(std::move(report), "end_point_overlap");
+  EXPECT_EQ(held.verdict().predicted, 12u);
+  EXPECT_EQ(held.fit().silent, 18u);
+  for (const char* technique : {"technique0", "technique1"})
+    EXPECT_THAT(values(held.fit().constants.at(technique)),
+                ElementsAre(DoubleNear(3, 1e-6), DoubleNear(2, 1e-6)));
 }
 
 /// One scene has no other to be predicted from: a bound that cannot be checked is not kept.
