@@ -9,10 +9,10 @@
 
 namespace rayshoot {
 
-const analysis::CostModel& cost_model_equation_3_rays() {
+const analysis::CostModel& cost_model_equation_3_by_rays() {
   using namespace analysis;
   static const CostModel model{
-      .id = "equation_3_rays",
+      .id = "equation_3_by_rays",
       .title = "equation (3) with the chances of the actual rays",
       .formula = "T = B E[n] + I E[m]",
       .source = "this project, after Goldsmith & Salmon 1987",
