@@ -11,6 +11,7 @@
 #include "harness/measure/predicting.h"
 #include "harness/measure/published.h"
 #include "harness/measure/record.h"
+#include "harness/measure/tested_kinds.h"
 #include "harness/measure/timing.h"
 #include "harness/verify/oracle.h"
 
@@ -219,6 +220,8 @@ class GroupRun {
     measurement.strict_work = record(counts.strict_work, events);
     measurement.efficiency = counts.efficiency;
     measurement.cells_deviation = counts.cells_deviation;
+    measurement.tested_kinds = record(
+        tested_kinds(cell.engine(), geometry_, batch, counts.work.object_tests, cell.scratch->local()));
     count_hierarchy(cell, batch);
   }
 

@@ -122,6 +122,15 @@ void members(T& work, Visitor& visitor) {
   visitor.optional("events", work.events);
 }
 
+template <Some<TestedKinds> T, class Visitor>
+void members(T& kinds, Visitor& visitor) {
+  visitor.required("triangles", kinds.triangles);
+  visitor.required("polygons", kinds.polygons);
+  visitor.required("spheres", kinds.spheres);
+  visitor.required("cones", kinds.cones);
+  visitor.required("polygon_vertices", kinds.polygon_vertices);
+}
+
 template <Some<Structure> T, class Visitor>
 void members(T& structure, Visitor& visitor) {
   visitor.required("nodes", structure.nodes);
@@ -215,6 +224,7 @@ void members(T& measurement, Visitor& visitor) {
   visitor.required("verdict", measurement.verdict);
   visitor.optional("work", measurement.work);
   visitor.optional("strict_work", measurement.strict_work);
+  visitor.optional("tested_kinds", measurement.tested_kinds);
   visitor.optional("structure", measurement.structure);
   visitor.optional("predicted", measurement.predicted);
   visitor.optional("sampled_prediction", measurement.sampled_prediction);

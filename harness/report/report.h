@@ -111,6 +111,12 @@ struct Structure {
   std::map<std::string, double> figures{};
 };
 
+/// Shares of the ray-object tests by kind of object, of the distinct candidates of rays, and the vertices of polygons by test
+/// of any kind.
+struct TestedKinds {
+  double triangles = 0, polygons = 0, spheres = 0, cones = 0, polygon_vertices = 0;
+};
+
 /// Equation (3), per ray of the set: the expected tests of a ray that hits the root volume times the fraction of
 /// rays that do, and the root volume's own test.
 struct Predicted {
@@ -205,6 +211,7 @@ struct Measurement {
   std::optional<Work> work;
   /// Work of the strict optimizer on the same rays, or on the random subset that `rays` of it counts.
   std::optional<Work> strict_work;
+  std::optional<TestedKinds> tested_kinds;
   std::optional<Structure> structure;
   std::optional<Predicted> predicted;
   std::optional<SampledPrediction> sampled_prediction;

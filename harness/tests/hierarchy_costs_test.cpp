@@ -5,6 +5,7 @@
 #include "accel/parts/sah_build.h"
 #include "harness/measure/end_point_overlap.h"
 #include "harness/measure/predicting.h"
+#include "harness/measure/tested_kinds.h"
 #include "harness/verify/scene_tracer.h"
 #include "scenes/core/scene_builder.h"
 #include "scenes/io/load_scene.h"
@@ -233,6 +234,29 @@ TEST(EndPointOverlap, OwnVolumesAreEntered) {
   EXPECT_THAT(built<float>("uniform_grid", geometry)->path_tests(), IsEmpty());
   EXPECT_THAT(built<float>("bvh_goldsmith_salmon", geometry, {{"object_volumes", "off"}})->path_tests(),
               SizeIs(geometry.size()));
+}
+
+/// Of the candidates of a flat list everything is known: each ray has every object.
+TEST(TestedKinds, AreSharesOfTheCandidates) {
+  SceneBuilder builder;
+  for (int i = 0; i < 2; ++i) builder.sphere({4.0 * i, 0, 0}, 1);
+  builder.triangle({5, 0, 0}, {9, 0, 0}, {5, 2, 0});
+  builder.polygon(std::vector<Vec3d>{{40, 0, 1}, {44, 0, 1}, {44, 4, 1}, {42, 5, 1}, {40, 4, 1}});
+  const Scene scene = std::move(builder).finish();
+  const Geometry<double> geometry(scene);
+  RaySet set;
+  set.rays.assign(100, {.origin = {0, 0, 9}, .direction = {0, 0, -1}});
+  set.closest_rays = 60;
+  const auto engine = built<double>("exhaustive", geometry);
+  const auto kinds = record(tested_kinds(*engine, geometry, Batch<double>(set), 400, *engine->scratch()));
+  ASSERT_TRUE(kinds);
+  // An any-hit query ends at the first sphere.
+  EXPECT_DOUBLE_EQ(kinds->spheres, (60 * 2 + 40) / 280.0);
+  EXPECT_DOUBLE_EQ(kinds->triangles, 60 / 280.0);
+  EXPECT_DOUBLE_EQ(kinds->polygons, 60 / 280.0);
+  EXPECT_DOUBLE_EQ(kinds->polygon_vertices, 5 * 60 / 280.0);
+  EXPECT_EQ(kinds->cones, 0);
+  EXPECT_FALSE(record(TestedKinds{}));
 }
 
 /// Points lie on the object that they are said to be of, as often as it has area.

@@ -81,6 +81,7 @@ TEST(Schema, HasTheMembersOfTheCode) {
                                                    {"measurement", cell},
                                                    {"verdict", cell["verdict"]},
                                                    {"work", cell["work"]},
+                                                   {"tested_kinds", cell["tested_kinds"]},
                                                    {"structure", cell["structure"]},
                                                    {"predicted", cell["predicted"]},
                                                    {"sampled_prediction", cell["sampled_prediction"]},
