@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "analysis/statistics/sample.h"
 #include "analysis/tables/comparison.h"
@@ -79,10 +80,32 @@ Table verdict_table(const std::vector<CellOfTests>& cells, const std::vector<con
   return table;
 }
 
+/// How many cells of every technique each model is right in.
+Table techniques_table(const std::vector<CellOfTests>& cells, const std::vector<const CostModel*>& models) {
+  Table table{.title = "Cells in which expected tests are within 5 % of counted ones, by technique",
+              .columns = {{"technique", "technique", "", "", Style::text},
+                          {"cells", "cells", "", "cells of the technique", Style::whole}}};
+  for (const CostModel* model : models)
+    table.columns.push_back(
+        {model->id + "_right", model->tests->heading, "", model->id + " is right", Style::whole});
+  std::map<std::string, std::vector<CellOfTests>> of_technique;
+  for (const CellOfTests& cell : cells) of_technique[cell.entry->label].push_back(cell);
+  for (const auto& [technique, members] : of_technique) {
+    auto& row = table.rows.emplace_back(std::vector{words(technique), whole(members.size())});
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      const TestsVerdict verdict = verdict_of_tests(members, i, "");
+      row.push_back(verdict.cells > 0 ? whole(verdict.right) : Cell{});
+    }
+  }
+  return table;
+}
+
 Table cells_table(const std::vector<CellOfTests>& cells, const std::vector<const CostModel*>& models,
                   const std::string& distribution) {
   Table table{.title = fmt::format("Tests of a ray, {}: counted, and expected / counted - 1", distribution),
-              .columns = {technique_column(), {"cell", "scene", "", "", Style::text}}};
+              .columns = {technique_column(),
+                          {"technique", "", "", "", Style::text, Place::csv},
+                          {"cell", "scene", "", "", Style::text}}};
   const auto add_columns = [&](const std::string& tests, const std::string& title) {
     table.columns.push_back({tests + "_tests_per_ray", title, "/ray", ""});
     for (const CostModel* model : models)
@@ -94,7 +117,7 @@ Table cells_table(const std::vector<CellOfTests>& cells, const std::vector<const
   for (const CellOfTests& cell : cells) {
     if (distribution_of(*cell.group) != distribution) continue;
     auto& row = table.rows.emplace_back(
-        std::vector{words(cell.entry->label),
+        std::vector{words(cell.entry->label), words(cell.entry->label),
                     words(fmt::format("{}, {}", cell.group->scene_id, precision_of(*cell.group)))});
     const auto append = [&](std::uint64_t report::Work::*count,
                             const std::vector<std::optional<double>>& errors) {
@@ -170,7 +193,7 @@ std::vector<Table> tests_tables(const std::vector<Group>& groups,
   const std::vector<const CostModel*> chosen = with_tests(models);
   const std::vector<CellOfTests> cells = cells_of_tests(groups, chosen);
   if (cells.empty()) return {};
-  std::vector<Table> tables{verdict_table(cells, chosen)};
+  std::vector<Table> tables{verdict_table(cells, chosen), techniques_table(cells, chosen)};
   for (const std::string& distribution : distributions(cells))
     tables.push_back(cells_table(cells, chosen, distribution));
   return tables;

@@ -41,7 +41,7 @@ TestsVerdict verdict_of_tests(const std::vector<CellOfTests>& cells, std::size_t
 bool tests_hold(const std::vector<Group>& groups, const std::vector<const CostModel*>& models,
                 double max_error);
 
-/// How often each model is right by distribution; then what was counted of every cell beside the errors of all. Empty
+/// How often each model is right, by distribution and by technique; then what was counted of every cell beside the errors of all. Empty
 /// where no model speaks of any cell.
 std::vector<Table> tests_tables(const std::vector<Group>& groups,
                                 const std::vector<const CostModel*>& models);

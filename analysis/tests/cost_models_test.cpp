@@ -334,7 +334,7 @@ TEST(ExpectedTests, AreHeldAgainstCountedOnes) {
   const std::vector<const CostModel*> models{&model("havran"), &model("equation_3"),
                                              &model("equation_3_occluded"), &model("equation_3_ordered")};
   const std::vector<Table> tables = tests_tables(all, models);
-  ASSERT_THAT(tables, SizeIs(3)) << "verdicts, and the cells of two distributions";
+  ASSERT_THAT(tables, SizeIs(4)) << "verdicts, by technique as well, and the cells of two distributions";
   const auto all_rays = [](std::size_t which) { return 3 * which + 2; };
   EXPECT_EQ(cell_in_row(tables[0], all_rays(0), "distribution").text, "all");
   EXPECT_EQ(number_in_row(tables[0], all_rays(0), "cells"), 12);
@@ -344,9 +344,13 @@ TEST(ExpectedTests, AreHeldAgainstCountedOnes) {
   EXPECT_NEAR(number_in_row(tables[0], all_rays(1), "median_objects_percent"), 4, 1e-9);
   EXPECT_NEAR(number_in_row(tables[0], all_rays(1), "max_objects_percent"), 10, 1e-9);
   EXPECT_EQ(number_in_row(tables[0], all_rays(2), "right"), 12);
-  EXPECT_THAT(tables[1].rows, SizeIs(6));
-  EXPECT_NEAR(number_in_row(tables[1], 0, "equation_3_volume_error"), 1, 1e-9);
-  EXPECT_NEAR(number_in_row(tables[1], 0, "equation_3_occluded_object_error"), -0.04, 1e-9);
+  EXPECT_THAT(row_names(tables[1]), ElementsAre("technique0", "technique1"));
+  EXPECT_EQ(number_in(tables[1], "technique1", "cells"), 6);
+  EXPECT_EQ(number_in(tables[1], "technique1", "equation_3_right"), 0);
+  EXPECT_EQ(number_in(tables[1], "technique1", "equation_3_occluded_right"), 5);
+  EXPECT_THAT(tables[2].rows, SizeIs(6));
+  EXPECT_NEAR(number_in_row(tables[2], 0, "equation_3_volume_error"), 1, 1e-9);
+  EXPECT_NEAR(number_in_row(tables[2], 0, "equation_3_occluded_object_error"), -0.04, 1e-9);
   EXPECT_TRUE(tests_hold(all, {&model("equation_3_ordered")}, 0.05));
   EXPECT_FALSE(tests_hold(all, {&model("equation_3_occluded")}, 0.05));
   EXPECT_TRUE(tests_hold(all, {&model("equation_3_occluded")}, 0.11));

@@ -16,7 +16,10 @@ const analysis::CostModel& cost_model_equation_3_occluded() {
       .title = "equation (3) with the chances of the actual rays up to their nearest hits",
       .formula = "T = B E[n] + I E[m]",
       .source = "this project, after Goldsmith & Salmon 1987",
-      .assumptions = "a search knows the nearest hit before it begins",
+      .assumptions =
+          "a search knows the nearest hit before it begins, which it does not where volumes overlap or are "
+          "visited in no "
+          "order of distance; rays that ask for any hit end at the first that is found",
       .constants = {{"B"}, {"I"}},
       .terms = [](const Group&, const Entry& entry) -> std::optional<std::vector<double>> {
         const auto& sampled = entry.measurement->sampled_prediction;

@@ -16,7 +16,7 @@ const analysis::CostModel& cost_model_equation_3_ordered() {
       .title = "equation (3) with the chances of the actual rays in the order of the search",
       .formula = "T = B E[n] + I E[m]",
       .source = "this project, after Goldsmith & Salmon 1987",
-      .assumptions = "the sampled rays are like the others",
+      .assumptions = "the sampled rays, of which all hits are known, are like the others",
       .constants = {{"B"}, {"I"}},
       .terms = [](const Group&, const Entry& entry) -> std::optional<std::vector<double>> {
         const auto& sampled = entry.measurement->sampled_prediction;
