@@ -39,10 +39,13 @@ class SampledEquation3 : public ::testing::TestWithParam<const char*> {
 
   static RaySet fourfold(const Scene& scene) {
     const SceneTracer tracer(scene, ConeSides::both, 2);
-    const RaySet set = make_rays("whitted@33", scene, tracer.tracer(), 1);
+    const RaySet set = make_rays("whitted@17", scene, tracer.tracer(), 1);
     RaySet result = set;
-    result.rays.clear();
-    for (const auto& ray : set.rays) result.rays.insert(result.rays.end(), 4, ray);
+    result.rays.clear(), result.origins.clear();
+    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+      result.rays.insert(result.rays.end(), 4, set.rays[i]);
+      result.origins.insert(result.origins.end(), 4, set.origins[i]);
+    }
     result.closest_rays = 4 * set.closest_rays;
     return result;
   }
@@ -119,7 +122,7 @@ TEST_P(SampledEquation3, IsASumOverVolumes) {
 TEST_P(SampledEquation3, OrderLiesBetweenKnowingAllAndNothing) {
   for (const char* id : kHierarchies) {
     RaySet nearest = fourfold(scene_);
-    nearest.rays.resize(nearest.closest_rays);
+    nearest.rays.resize(nearest.closest_rays), nearest.origins.resize(nearest.closest_rays);
     const KnownRays<float> known(geometry_, Batch<float>(nearest), 1, 2);
     const auto prediction = known.predict(*built<float>(id, geometry_), 2);
     EXPECT_LE(prediction->occluded.object_tests_per_ray, prediction->ordered.object_tests_per_ray) << id;
@@ -146,6 +149,7 @@ TEST(KnownRays, AreAFractionOfMany) {
   const Geometry<float> geometry(scene);
   RaySet set;
   set.rays.assign(100'000, {.origin = {0, 0, 9}, .direction = {0, 0, -1}});
+  set.origins.resize(set.rays.size());
   set.closest_rays = 60'000;
   const auto prediction =
       KnownRays<float>(geometry, Batch<float>(set), 1, 2).predict(*built<float>("bvh_sah", geometry), 2);
@@ -246,6 +250,7 @@ TEST(TestedKinds, AreSharesOfTheCandidates) {
   const Geometry<double> geometry(scene);
   RaySet set;
   set.rays.assign(100, {.origin = {0, 0, 9}, .direction = {0, 0, -1}});
+  set.origins.resize(set.rays.size());
   set.closest_rays = 60;
   const auto engine = built<double>("exhaustive", geometry);
   const auto kinds = record(tested_kinds(*engine, geometry, Batch<double>(set), 400, *engine->scratch()));
