@@ -61,8 +61,7 @@ TEST_F(RunTest, ARightTechniqueIsVerifiedCountedAndTimed) {
 }
 
 TEST_F(RunTest, MoreIsExpectedOfAHierarchyThanOfAGrid) {
-  add(technique_entry("bvh_sah"));
-  add(technique_entry("uniform_grid"));
+  for (const char* id : {"bvh_sah", "uniform_grid"}) plan_.techniques.push_back(choose_technique(id));
   const report::Report report = run();
   const report::Measurement &hierarchy = report.measurements.at(0), &grid = report.measurements.at(1);
   ASSERT_TRUE(hierarchy.predicted && hierarchy.sampled_prediction && hierarchy.end_point_overlap);
