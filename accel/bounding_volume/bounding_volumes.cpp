@@ -217,6 +217,16 @@ class BoundingVolumes {
     return sum;
   }
 
+  /// A list is a hierarchy of one level.
+  template <class Visit>
+  void for_each_volume(const Visit& visit) const {
+    if (config_.combination != Combination::single || bounds_.empty()) return;
+    const auto objects = static_cast<std::uint32_t>(bounds_.size());
+    visit(HierarchyVolume{.volume_tests = objects});
+    for (std::uint32_t object = 0; object < objects; ++object)
+      visit(HierarchyVolume{1, 0, 1, object, object + 1});
+  }
+
  private:
   enum class Together : std::uint8_t { alone, both, either };
   struct Bound {

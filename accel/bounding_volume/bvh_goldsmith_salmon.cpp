@@ -221,7 +221,24 @@ class BvhGoldsmithSalmon {
     return sum;
   }
 
+  template <class Visit>
+  void for_each_volume(const Visit& visit) const {
+    visit(HierarchyVolume{.volume_tests = 1});
+    if (!order_.empty()) visit_below({bounds_, 0, root_children_}, 1, visit);
+  }
+
  private:
+  template <class Visit>
+  void visit_below(const Child& child, std::uint32_t depth, const Visit& visit) const {
+    if (child.is_object())
+      return visit(HierarchyVolume{depth, 0, object_volumes_ ? 1u : 0u, child.first, child.first + 1});
+    HierarchyVolume volume{.depth = depth};
+    for (std::uint32_t i = child.first; i < child.last; ++i)
+      ++(children_[i].is_object() && !object_volumes_ ? volume.object_tests : volume.volume_tests);
+    visit(volume);
+    for (std::uint32_t i = child.first; i < child.last; ++i) visit_below(children_[i], depth + 1, visit);
+  }
+
   /// Lay the tree out depth first: the children of a node side by side, objects in the order of the walk.
   void lay_out(const GrowingTree<Real>& tree) {
     struct Pending {

@@ -136,7 +136,22 @@ class BvhKayKajiya {
     return sum;
   }
 
+  template <class Visit>
+  void for_each_volume(const Visit& visit) const {
+    visit(HierarchyVolume{.volume_tests = 1});
+    if (!candidates_.empty()) visit_below(candidates_[0], 1, visit);
+  }
+
  private:
+  template <class Visit>
+  void visit_below(const Candidate& candidate, std::uint32_t depth, const Visit& visit) const {
+    if (candidate.is_object())
+      return visit(HierarchyVolume{depth, 0, 1, candidate.first, candidate.first + 1});
+    visit(HierarchyVolume{.depth = depth, .volume_tests = candidate.last - candidate.first});
+    for (std::uint32_t i = candidate.first; i < candidate.last; ++i)
+      visit_below(candidates_[i], depth + 1, visit);
+  }
+
   /// The procedure of Figure 9.
   template <int kSlopes, class Counter, class L>
   void traverse(const Ray<Real>& ray, std::vector<Estimated>& heap, Counter count, L& leaf) const {

@@ -109,7 +109,20 @@ class BvhSah {
     return sum;
   }
 
+  template <class Visit>
+  void for_each_volume(const Visit& visit) const {
+    visit(HierarchyVolume{.volume_tests = 1});
+    if (!order_.empty()) visit_below(tree_.root, 1, visit);
+  }
+
  private:
+  template <class Visit>
+  void visit_below(const ChildReference& node, std::uint32_t depth, const Visit& visit) const {
+    if (node.leaf()) return visit(HierarchyVolume{depth, 0, node.count, node.first, node.first + node.count});
+    visit(HierarchyVolume{.depth = depth, .volume_tests = 2});
+    for (const ChildReference& child : tree_.nodes[node.first].child) visit_below(child, depth + 1, visit);
+  }
+
   void measure(const ChildReference& node, std::uint64_t depth, StructureStats& stats) const {
     stats.max_depth = std::max(stats.max_depth, depth);
     if (node.leaf()) {

@@ -189,7 +189,23 @@ class BvhWide {
     return {expected.object_tests, expected.volume_tests, tree_.bounds};
   }
 
+  /// None where slivers were cut: an object is then in several leaves.
+  template <class Visit>
+  void for_each_volume(const Visit& visit) const {
+    if (!tree_.empty() && !margin_) visit_below(WideChild::interior(0), 0, visit);
+  }
+
  private:
+  template <class Visit>
+  void visit_below(WideChild child, std::uint32_t depth, const Visit& visit) const {
+    if (child.is_leaf())
+      return visit(HierarchyVolume{depth, 0, child.count(), child.first(), child.first() + child.count()});
+    const WideNode<Real>& node = tree_.nodes[child.node()];
+    visit(HierarchyVolume{.depth = depth, .volume_tests = node.children});
+    for (std::uint32_t which = 0; which < node.children; ++which)
+      visit_below(node.child[which], depth + 1, visit);
+  }
+
   using PreparedRay = std::conditional_t<std::same_as<Real, float>, WideRay<WideAvx2>, Ray<double>>;
 
   /// Whether the ray's origin and direction are finite, and its interval holds a number: no other hits anything.

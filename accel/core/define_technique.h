@@ -16,6 +16,12 @@ concept PredictsCost = requires(const A a) {
   { a.predicted() } -> std::convertible_to<std::optional<Prediction<typename A::Scalar>>>;
 };
 
+/// A technique that tells its volumes.
+template <class A>
+concept HasVolumes = requires(const A a, void (*visit)(const HierarchyVolume&)) {
+  a.for_each_volume(visit);
+};
+
 /// What tests its candidates itself, where they are: `object_test(scratch)` is the test of the one last handed on.
 template <class A>
 concept TestsObjects = requires(const A a, const typename A::Scratch& scratch) {
@@ -80,9 +86,31 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
       hits[i] = counted_query(query, rays[i], own, work);
       work.distinct_objects = own.make_distinct(given_.numbers(), name());
       const auto distinct = static_cast<double>(work.distinct_objects);
-      sum += {work, square(distinct), i % 2 == 0 ? 0 : square(distinct - neighbour),
-              square(static_cast<double>(work.object_tests)), square(static_cast<double>(work.volume_tests))};
+      sum += {work,
+              square(distinct),
+              i % 2 == 0 ? 0 : square(distinct - neighbour),
+              square(static_cast<double>(work.object_tests)),
+              square(static_cast<double>(work.volume_tests)),
+              square(static_cast<double>(work.cells))};
       neighbour = distinct;
+    }
+    return sum;
+  }
+
+  std::optional<Work> count_known(Query query, std::span<const Ray<Real>> rays,
+                                  std::span<const std::vector<Hit<Real>>> known,
+                                  EngineScratch& scratch) const override {
+    Work sum;
+    auto& own = static_cast<Scratch&>(scratch);
+    const auto visit_with = [&](const Ray<Real>& ray, auto leaf) {
+      counted_visit(technique_, ray, own.technique, sum, leaf, own.candidates);
+    };
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Ray<Real> ray = begun(rays[i]);
+      if (query == Query::any)
+        visit_with(ray, KnownHitsLeaf<Real, true>(known[i], name(), ray));
+      else
+        visit_with(ray, KnownHitsLeaf<Real, false>(known[i], name(), ray));
     }
     return sum;
   }
@@ -110,6 +138,22 @@ class TechniqueEngine final : public Engine<typename A::Scalar> {
       return technique_.predicted();
     else
       return std::nullopt;
+  }
+
+  std::vector<PathTests> path_tests() const override {
+    std::vector<PathTests> tests;
+    if constexpr (HasVolumes<A>) {
+      // Sum up from the root down to the volume at hand.
+      std::vector<PathTests> path;
+      technique_.for_each_volume([&](const HierarchyVolume& volume) {
+        tests.resize(given_.numbers());
+        path.resize(volume.depth);
+        const PathTests above = path.empty() ? PathTests{} : path.back();
+        path.push_back({above.volume_tests + volume.volume_tests, above.object_tests + volume.object_tests});
+        for (std::uint32_t i = volume.first; i < volume.last; ++i) tests[name()(i)] = path.back();
+      });
+    }
+    return tests;
   }
 
  private:

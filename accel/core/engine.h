@@ -22,8 +22,14 @@ struct CountedWork {
   double distinct_differences = 0;
   double object_test_squares = 0;  ///< sum over rays of (object tests)^2
   double volume_test_squares = 0;  ///< sum over rays of (volume tests)^2
+  double cell_squares = 0;         ///< sum over rays of (cells)^2
 
   CountedWork& operator+=(const CountedWork& other);
+};
+
+/// The tests that a ray costs which enters all volumes that an object is in, and no others.
+struct PathTests {
+  std::uint64_t volume_tests = 0, object_tests = 0;
 };
 
 /// A built technique behind the one virtual call per batch of rays. Objects in hits are those of the geometry
@@ -48,10 +54,20 @@ class Engine {
   virtual std::vector<std::uint32_t> candidates(Query query, const Ray<Real>& ray,
                                                 EngineScratch& scratch) const = 0;
 
+  /// The work of searches for the closest hit or for any without a single object test: `known` are the hits of all objects
+  /// on each ray, by increasing number. Nothing for engines that do not derive it; distinct objects are not counted.
+  virtual std::optional<Work> count_known(Query, std::span<const Ray<Real>> /*rays*/,
+                                          std::span<const std::vector<Hit<Real>>> /*known*/,
+                                          EngineScratch&) const {
+    return std::nullopt;
+  }
+
   /// Rays that it had best be given at a time, where there are so many.
   virtual std::size_t rays_per_batch() const { return kRaysPerBatch; }
   virtual StructureStats structure() const = 0;
   virtual std::optional<Prediction<Real>> predicted() const { return std::nullopt; }
+  /// Of every object, by its number; none where the technique is no hierarchy.
+  virtual std::vector<PathTests> path_tests() const { return {}; }
 };
 
 /// A ray set with its verified nearest hits, for techniques that replay instead of search. The nearest hit of

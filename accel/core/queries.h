@@ -48,7 +48,7 @@ struct Naming {
 template <class L>
 inline constexpr bool kSeeksAnyHit = false;
 template <class L>
-requires L::kAnyHit inline constexpr bool kSeeksAnyHit<L> = true;
+requires(L::kAnyHit) inline constexpr bool kSeeksAnyHit<L> = true;
 
 /// Leaf of the closest-hit query: keeps the nearest hit, of equal distances the lowest object.
 template <class Real, class Test>
@@ -105,6 +105,32 @@ class StrictLeaf {
   Real reach() const { return reach_; }
 
  private:
+  Real reach_;
+};
+
+/// Leaf of a search that knows all objects on the ray and tests none: one of them shortens the ray, or ends the visit,
+/// when it is handed out.
+template <class Real, bool kSeeksAny>
+class KnownHitsLeaf {
+ public:
+  static constexpr bool kAnyHit = kSeeksAny;
+
+  KnownHitsLeaf(std::span<const Hit<Real>> known, Naming name, const Ray<Real>& ray)
+      : known_(known), name_(name), reach_(ray.t_max) {}
+
+  bool operator()(std::uint32_t position) {
+    const auto found =
+        std::lower_bound(known_.begin(), known_.end(), name_(position),
+                         [](const Hit<Real>& hit, auto object) { return hit.object < object; });
+    if (found == known_.end() || found->object != name_(position)) return false;
+    reach_ = std::min(reach_, found->t);
+    return kSeeksAny;
+  }
+  Real reach() const { return reach_; }
+
+ private:
+  std::span<const Hit<Real>> known_;
+  Naming name_;
   Real reach_;
 };
 

@@ -6,6 +6,7 @@ CountedWork& CountedWork::operator+=(const CountedWork& other) {
   total += other.total;
   distinct_squares += other.distinct_squares, distinct_differences += other.distinct_differences;
   object_test_squares += other.object_test_squares;
+  cell_squares += other.cell_squares;
   volume_test_squares += other.volume_test_squares;
   return *this;
 }

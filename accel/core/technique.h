@@ -83,6 +83,14 @@ struct Prediction {
   Box<Real> root;
 };
 
+/// A volume of a hierarchy, by what is tested when a ray enters it.
+struct HierarchyVolume {
+  std::uint32_t depth = 0;            ///< of what every ray enters: 0
+  std::uint32_t volume_tests = 0;     ///< of the volumes right below it
+  std::uint32_t object_tests = 0;     ///< of objects
+  std::uint32_t first = 0, last = 0;  ///< objects in no volume below it, as its leaf is given them
+};
+
 /// A leaf is what a query hands to `visit`: it tests the objects it is given and remembers the outcome.
 ///   leaf(object)  tests one candidate; true when the query is answered and the visit must end
 ///   leaf.reach()  the distance beyond which nothing matters any more; a hit at exactly that distance still
@@ -108,7 +116,10 @@ struct ArchetypeLeaf {
 ///       objects; the objects are then laid out in memory in that order, each at least once;
 ///   std::size_t rays_per_batch() const             to ask for more rays at a time than `kRaysPerBatch`;
 ///   Prediction<Real> predicted() const             to state what equation (3) expects; std::optional where it can do
-///       so for some configurations only.
+///       so for some configurations only;
+///   for_each_volume(visit)                         where it is a hierarchy and each object is in one place of it: calls
+///       visit(HierarchyVolume) for each volume, before those below it, depth first; for no configuration of which that
+///       cannot be said.
 template <class A>
 concept Visitable = requires(const A a, typename A::Scratch scratch, Ray<typename A::Scalar> ray,
                              NoCount none, Count count, ArchetypeLeaf<typename A::Scalar> leaf) {

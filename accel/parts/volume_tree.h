@@ -109,12 +109,26 @@ class VolumeTree {
     return stats;
   }
 
+  template <class Visit>
+  void for_each_volume(const Visit& visit) const {
+    visit(HierarchyVolume{.volume_tests = 1});
+    if (!nodes_.empty()) visit_below(nodes_[0], 1, visit);
+  }
+
  private:
   struct Node {
     Volume<Real> volume;
     std::uint32_t first_object, last_object;
     std::uint32_t first_child, last_child;
   };
+
+  template <class Visit>
+  void visit_below(const Node& node, std::uint32_t depth, const Visit& visit) const {
+    visit(HierarchyVolume{depth, node.last_child - node.first_child, node.last_object - node.first_object,
+                          node.first_object, node.last_object});
+    for (std::uint32_t child = node.first_child; child < node.last_child; ++child)
+      visit_below(nodes_[child], depth + 1, visit);
+  }
 
   /// Put the children of a node side by side.
   void lay_out(const ObjectHierarchy& hierarchy) {

@@ -16,6 +16,13 @@ struct Constant {
   bool of_technique = false;
 };
 
+/// The tests that a model expects of a ray, for those that say so: these are held against what was counted.
+struct ExpectedTests {
+  /// Heading of a column of errors.
+  std::string heading;
+  std::optional<report::Predicted> (*of)(const report::Measurement& measurement) = nullptr;
+};
+
 /// A formula for the time of a ray: a sum of terms, each a number that the report holds times a constant of 0 or more
 /// nanoseconds, which is fitted.
 struct CostModel {
@@ -29,6 +36,7 @@ struct CostModel {
   std::vector<Constant> constants;
   /// The terms of a cell, per ray; nothing where the model does not speak of it.
   std::optional<std::vector<double>> (*terms)(const Group& group, const Entry& entry) = nullptr;
+  std::optional<ExpectedTests> tests{};
 };
 
 /// A count of the cell's work per ray; 0 where it was not taken.

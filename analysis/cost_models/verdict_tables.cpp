@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "analysis/cost_models/far_cells.h"
 #include "analysis/cost_models/verdicts.h"
 #include "analysis/statistics/geometric_mean.h"
 #include "analysis/tables/comparison.h"
@@ -130,6 +131,7 @@ std::vector<Table> validation_tables(const Validation& validation, bool with_cel
       bias_table(validation, "scene", [](const Group& group) { return group.scene_id; }),
       bias_table(validation, "distribution of rays", distribution_of)};
   for (const ModelFit& fit : validation.fits) tables.push_back(constants_table(fit));
+  for (Table& table : far_cells_tables(validation.fits, with_cells)) tables.push_back(std::move(table));
   if (with_cells) tables.push_back(predictions_table(validation));
   return tables;
 }

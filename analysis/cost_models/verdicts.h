@@ -43,7 +43,8 @@ struct Validation {
 Validation validate(const std::vector<Group>& groups, const std::vector<const CostModel*>& models,
                     const ModelBounds& bounds);
 
-/// The verdicts; the bias by scene and by distribution of rays; the constants; in CSV, and where asked for, every cell.
+/// The verdicts; the bias by scene and by distribution of rays; the constants; which assumptions fail where cells are far
+/// off; in CSV, and where asked for, every cell.
 std::vector<Table> validation_tables(const Validation& validation, bool with_cells);
 Table predictions_table(const Validation& validation);
 

@@ -59,6 +59,10 @@ Cell efficiency_interval(const Group&, const Entry& entry) {
   const auto& measured = entry.measurement->efficiency;
   return number(measured ? std::optional(((*measured).*interval)[end]) : std::nullopt);
 }
+template <double report::EndPointOverlap::*tests>
+Cell end_point_overlap(const Group&, const Entry& entry) {
+  return part(entry.measurement->end_point_overlap, tests);
+}
 template <double report::Predicted::*tests>
 Cell predicted(const Group&, const Entry& entry) {
   return part(entry.measurement->predicted, tests);
@@ -140,6 +144,8 @@ std::vector<ComparisonColumn> work_columns() {
       {{"volume_tests_per_ray", "volumes", "/ray", "ray-volume tests"}, work<&Work::volume_tests>},
       {in_csv("distinct_objects_per_ray"), work<&Work::distinct_objects>},
       {in_csv("cells_per_ray"), work<&Work::cells>},
+      {in_csv("cells_deviation"),
+       [](const Group&, const Entry& entry) { return number(entry.measurement->cells_deviation); }},
       {in_csv("empty_cells_per_ray"), work<&Work::empty_cells>},
       {in_csv("mailbox_hits_per_ray"), work<&Work::mailbox_hits>},
       {in_csv("strict_object_tests_per_ray"), strict_work<&Work::object_tests>},
@@ -148,7 +154,7 @@ std::vector<ComparisonColumn> work_columns() {
 }
 
 std::vector<ComparisonColumn> model_columns() {
-  using report::Efficiency, report::Predicted;
+  using report::Efficiency, report::EndPointOverlap, report::Predicted;
   return {
       {{"m", "M", "",
         "share of the scene's objects that a ray is tested with on its way to the hit (Revelles)"},
@@ -169,6 +175,8 @@ std::vector<ComparisonColumn> model_columns() {
       {in_csv("predicted_volume_tests_error"),
        prediction_error<&Predicted::volume_tests_per_ray, &Work::volume_tests>},
       {in_csv("predicted_error_basis", Style::text), basis},
+      {in_csv("overlap_object_tests_per_point"), end_point_overlap<&EndPointOverlap::object_tests_per_point>},
+      {in_csv("overlap_volume_tests_per_point"), end_point_overlap<&EndPointOverlap::volume_tests_per_point>},
   };
 }
 

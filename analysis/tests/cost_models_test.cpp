@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
 #include <regex>
 
+#include "analysis/cost_models/expected_tests.h"
+#include "analysis/cost_models/far_cells.h"
 #include "analysis/cost_models/verdicts.h"
 #include "analysis/plots/plots.h"
 #include "analysis/tests/find_cell.h"
@@ -125,24 +128,37 @@ TEST(HavranByTechnique, FindsTheConstantsOfEveryTechnique) {
 }
 
 TEST(CountedWork, FindsPricesThatAllShareAndThoseOfATechnique) {
+  // Scenes of an odd number have chords, which are incoherent; where no kinds are told, they are those of the scene.
   const auto law = [](const report::Scene& scene, const Measurement& cell, double technique) {
-    const double tests = rate(cell, &report::Work::object_tests) / 100;
+    const double incoherent = (scene.id.back() - '0') % 2;
+    const double triangles = cell.tested_kinds ? 0.5 + 5 * 0.25 + 0.25 * (1 + 0.04 * 12)
+                                               : (static_cast<double>(scene.counts.at("triangle")) +
+                                                  4.0 / 3 * static_cast<double>(scene.counts.at("sphere"))) /
+                                                     100;
     const double empty = rate(cell, &report::Work::empty_cells);
-    return tests * (6 * static_cast<double>(scene.counts.at("triangle")) +
-                    11 * static_cast<double>(scene.counts.at("sphere"))) +
+    return (6 + 3 * incoherent) * triangles * rate(cell, &report::Work::object_tests) +
            4 * (rate(cell, &report::Work::cells) - empty) + 2 * empty +
-           (1 + technique) * rate(cell, &report::Work::steps) + 7 * rate(cell, &report::Work::volume_tests) +
-           10 * technique;
+           (1 + technique + 0.5 * incoherent) * rate(cell, &report::Work::steps) +
+           7 * rate(cell, &report::Work::volume_tests) + 10 * technique;
   };
-  const Held held(report_by_law(law), "counted_work");
-  const auto& shared = held.fit().constants.at("all");
-  EXPECT_THAT(shared[0], Optional(DoubleNear(6, 1e-4))) << "triangle";
-  EXPECT_THAT(shared[2], Optional(DoubleNear(11, 1e-4))) << "sphere";
-  EXPECT_THAT(shared[4], Optional(DoubleNear(4, 1e-4))) << "full cell";
-  EXPECT_FALSE(shared[6]) << "a step has no price that all share";
-  EXPECT_THAT(held.fit().constants.at("technique3")[6], Optional(DoubleNear(4, 1e-4))) << "step";
-  EXPECT_THAT(held.fit().constants.at("technique1")[7], Optional(DoubleNear(7, 1e-4))) << "volume";
-  EXPECT_LT(*held.verdict().max_error, 1e-4);
+  for (const bool told : {false, true}) {
+    Report report = report_by_law(law);
+    for (std::size_t i = 0; told && i < report.measurements.size(); ++i) {
+      Measurement& cell = report.measurements[i];
+      cell.tested_kinds = report::TestedKinds{0.5, 0.25, 0, 0.25, 0.25 * 12};
+      cell.trace_ns = {100 * law(report.scenes[i / 5], cell, static_cast<double>(i % 5))};
+    }
+    const Held held(std::move(report), "counted_work");
+    const auto& shared = held.fit().constants.at("all");
+    EXPECT_THAT(shared[0], Optional(DoubleNear(6, 1e-4))) << "triangle";
+    EXPECT_THAT(shared[1], Optional(DoubleNear(3, 1e-4))) << "incoherent triangle";
+    EXPECT_THAT(shared[2], Optional(DoubleNear(0.5, 1e-4))) << "incoherent step";
+    EXPECT_THAT(shared[3], Optional(DoubleNear(4, 1e-4))) << "full cell";
+    EXPECT_FALSE(shared[5]) << "a step has no price that all share";
+    EXPECT_THAT(held.fit().constants.at("technique3")[5], Optional(DoubleNear(4, 1e-4))) << "step";
+    EXPECT_THAT(held.fit().constants.at("technique1")[6], Optional(DoubleNear(7, 1e-4))) << "volume";
+    EXPECT_LT(*held.verdict().max_error, 1e-4);
+  }
 }
 
 TEST(Equations, SpeakOfHierarchiesAlone) {
@@ -251,6 +267,117 @@ TEST(ModelTime, ShowsTheModelThatErrsLeast) {
     EXPECT_NEAR(y0 + (x - x0) / (x1 - x0) * (y1 - y0), y, 0.3);
   }
   EXPECT_EQ(points, 30u);
+}
+
+/// One cause at a time is planted into a model's predictions: a scene, its odd rays, a technique, one cell.
+TEST(FarCells, NameTheAssumptionThatFails) {
+  const auto fails = [](const std::function<bool(const Measurement&, std::size_t)>& planted) {
+    const Report report = report_by_law(havrans_law);
+    std::vector<Group> all = groups(report);
+    std::vector<ModelFit> fits = fit_models(all, {&model("havran")});
+    // Every other ray set becomes a second one of the scene before it.
+    for (std::size_t i = 1; i < all.size(); i += 2) all[i].scene_id = all[i - 1].scene_id;
+    for (std::size_t i = 0; i < fits[0].cells.size(); ++i) {
+      ModelCell& cell = fits[0].cells[i];
+      cell.predicted = cell.measured * (planted(*cell.entry->measurement, i) ? 1.5 : 1.01);
+    }
+    std::map<Assumption, int> counts;
+    for (const FarCell& far : far_cells(fits[0])) {
+      EXPECT_NEAR(far.error, 0.5, 1e-9);
+      EXPECT_NEAR(far.of_scene + far.of_rays + far.of_technique + far.rest, std::log(1.5), 1e-9);
+      ++counts[far.assumption()];
+    }
+    const auto tables = far_cells_tables(fits, true);
+    EXPECT_THAT(tables, SizeIs(counts.empty() ? 0 : 2));
+    if (!tables.empty()) {
+      EXPECT_EQ(number_in(tables[0], "havran, float", "cells"), 30);
+      EXPECT_EQ(number_in(tables[0], "havran, float", "far_off"), static_cast<double>(tables[1].rows.size()));
+    }
+    return counts;
+  };
+  using ::testing::Pair;
+  EXPECT_THAT(fails([](const Measurement& cell, std::size_t) { return cell.scene <= "scene1"; }),
+              ElementsAre(Pair(Assumption::scenes, 10)));
+  EXPECT_THAT(fails([](const Measurement& cell, std::size_t) { return cell.technique == "technique3"; }),
+              ElementsAre(Pair(Assumption::technique, 6)));
+  EXPECT_THAT(fails([](const Measurement&, std::size_t i) { return i == 17; }),
+              ElementsAre(Pair(Assumption::counts, 1)));
+  EXPECT_THAT(fails([](const Measurement&, std::size_t) { return false; }), IsEmpty());
+}
+
+/// On every third ray set of a scene all techniques are off.
+TEST(FarCells, TellRaysFromScenes) {
+  const Report report = report_by_law(havrans_law);
+  std::vector<Group> all = groups(report);
+  std::vector<ModelFit> fits = fit_models(all, {&model("havran")});
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].scene_id = all[i / 3 * 3].scene_id;
+  for (ModelCell& cell : fits[0].cells)
+    cell.predicted = cell.measured * (cell.group == &all[2] || cell.group == &all[5] ? 0.5 : 1.0);
+  const std::vector<FarCell> far = far_cells(fits[0]);
+  EXPECT_THAT(far, SizeIs(10));
+  for (const FarCell& cell : far) EXPECT_EQ(cell.assumption(), Assumption::rays);
+}
+
+/// Every model errs by what was planted.
+TEST(ExpectedTests, AreHeldAgainstCountedOnes) {
+  Report report = report_by_law(havrans_law);
+  for (Measurement& cell : report.measurements) {
+    if (rate(cell, &report::Work::volume_tests) == 0) continue;
+    const report::Predicted counted{rate(cell, &report::Work::object_tests),
+                                    rate(cell, &report::Work::volume_tests)};
+    auto wrong = counted, close = counted;
+    wrong.volume_tests_per_ray *= 2, close.object_tests_per_ray *= cell.scene == "scene3" ? 0.9 : 0.96;
+    cell.predicted = wrong;
+    cell.sampled_prediction = report::SampledPrediction{25, wrong, close, counted};
+  }
+  const std::vector<Group> all = groups(report);
+  const std::vector<const CostModel*> models{&model("havran"), &model("equation_3"),
+                                             &model("equation_3_occluded"), &model("equation_3_ordered")};
+  const std::vector<Table> tables = tests_tables(all, models);
+  ASSERT_THAT(tables, SizeIs(4)) << "verdicts, by technique as well, and the cells of two distributions";
+  const auto all_rays = [](std::size_t which) { return 3 * which + 2; };
+  EXPECT_EQ(cell_in_row(tables[0], all_rays(0), "distribution").text, "all");
+  EXPECT_EQ(number_in_row(tables[0], all_rays(0), "cells"), 12);
+  EXPECT_EQ(number_in_row(tables[0], all_rays(0), "right"), 0);
+  EXPECT_NEAR(number_in_row(tables[0], all_rays(0), "max_volumes_percent"), 100, 1e-9);
+  EXPECT_EQ(number_in_row(tables[0], all_rays(1), "right"), 10) << "all but those of scene3";
+  EXPECT_NEAR(number_in_row(tables[0], all_rays(1), "median_objects_percent"), 4, 1e-9);
+  EXPECT_NEAR(number_in_row(tables[0], all_rays(1), "max_objects_percent"), 10, 1e-9);
+  EXPECT_EQ(number_in_row(tables[0], all_rays(2), "right"), 12);
+  EXPECT_THAT(row_names(tables[1]), ElementsAre("technique0", "technique1"));
+  EXPECT_EQ(number_in(tables[1], "technique1", "cells"), 6);
+  EXPECT_EQ(number_in(tables[1], "technique1", "equation_3_right"), 0);
+  EXPECT_EQ(number_in(tables[1], "technique1", "equation_3_occluded_right"), 5);
+  EXPECT_THAT(tables[2].rows, SizeIs(6));
+  EXPECT_NEAR(number_in_row(tables[2], 0, "equation_3_volume_error"), 1, 1e-9);
+  EXPECT_NEAR(number_in_row(tables[2], 0, "equation_3_occluded_object_error"), -0.04, 1e-9);
+  EXPECT_TRUE(tests_hold(all, {&model("equation_3_ordered")}, 0.05));
+  EXPECT_FALSE(tests_hold(all, {&model("equation_3_occluded")}, 0.05));
+  EXPECT_TRUE(tests_hold(all, {&model("equation_3_occluded")}, 0.11));
+  EXPECT_FALSE(tests_hold(all, {&model("equation_3_by_rays"), &model("equation_3")}, 0.05));
+  for (Measurement& cell : report.measurements) cell.predicted.reset(), cell.sampled_prediction.reset();
+  EXPECT_THAT(tests_tables(all, models), IsEmpty());
+  EXPECT_FALSE(tests_hold(all, models, 100)) << "what cannot be checked does not hold";
+}
+
+TEST(EndPointOverlap, PricesBothParts) {
+  Report report = report_by_law(havrans_law);
+  for (std::size_t i = 0; i < report.measurements.size(); ++i) {
+    Measurement& cell = report.measurements[i];
+    if (!cell.predicted) continue;
+    const auto x = static_cast<double>(i);
+    cell.end_point_overlap = report::EndPointOverlap{100, 0.1 * x, 10 / (1 + x)};
+    const double sah = 0.6 * cell.predicted->volume_tests_per_ray + cell.predicted->object_tests_per_ray,
+                 overlap = 0.6 * cell.end_point_overlap->volume_tests_per_point +
+                           cell.end_point_overlap->object_tests_per_point;
+    cell.trace_ns = {100 * (3 * sah + 2 * overlap)};
+  }
+  const Held held(std::move(report), "end_point_overlap");
+  EXPECT_EQ(held.verdict().predicted, 12u);
+  EXPECT_EQ(held.fit().silent, 18u);
+  for (const char* technique : {"technique0", "technique1"})
+    EXPECT_THAT(values(held.fit().constants.at(technique)),
+                ElementsAre(DoubleNear(3, 1e-6), DoubleNear(2, 1e-6)));
 }
 
 /// One scene has no other to be predicted from: a bound that cannot be checked is not kept.

@@ -1,7 +1,6 @@
 #include "harness/choose/terms.h"
 
-#include <algorithm>
-#include <ranges>
+#include "harness/measure/tested_kinds.h"
 
 namespace rayshoot {
 
@@ -10,44 +9,8 @@ namespace {
 /// The second cache of the machine that the constants were fitted on.
 constexpr double kNearBytes = 1 << 20;
 
-/// The kinds of about so many candidates are looked up.
-constexpr std::uint64_t kMostCandidates = 1'000'000;
-
 /// The part of equally likely accesses to so many bytes that misses a cache.
 double far_part(double bytes) { return bytes > kNearBytes ? 1 - kNearBytes / bytes : 0; }
-
-/// Candidates by kind of object, and vertices of polygons among them.
-struct Kinds {
-  std::array<double, kObjectKindNames.size()> objects{};
-  double vertices = 0;
-
-  double all() const { return objects[0] + objects[1] + objects[2] + objects[3]; }
-};
-
-/// Add the object of that number, in whatever part it is.
-template <class Real>
-void add(Kinds& kinds, const Geometry<Real>& geometry, std::uint32_t number) {
-  const auto first_number = [&](std::uint32_t object) { return geometry.first_number(object); };
-  const auto objects = std::views::iota(0u, geometry.size());
-  const std::uint32_t object = *(std::ranges::upper_bound(objects, number, {}, first_number) - 1);
-  if (geometry.kind(object) == ObjectKind::placed)
-    return add(kinds, *geometry.placed(object).part, number - first_number(object));
-  const ObjectKind kind = geometry.kind(object);
-  ++kinds.objects[static_cast<std::size_t>(kind)];
-  if (kind == ObjectKind::polygon) kinds.vertices += geometry.polygon(object).vertex_count;
-}
-
-template <class Real>
-Kinds kinds_of(const Engine<Real>& engine, const Geometry<Real>& geometry, const Batch<Real>& sample,
-               std::size_t stride, EngineScratch& scratch) {
-  Kinds kinds;
-  for (std::size_t i = 0; i < sample.rays.size(); i += stride) {
-    const Query query = i < sample.closest_rays ? Query::closest : Query::any;
-    for (const std::uint32_t object : engine.candidates(query, sample.rays[i], scratch))
-      add(kinds, geometry, object);
-  }
-  return kinds;
-}
 
 }  // namespace
 
@@ -71,7 +34,7 @@ std::map<std::string, double> terms_of(const Engine<Real>& engine, const Geometr
                                       {"volume_test", per_ray(static_cast<double>(work.volume_tests))},
                                       {"step", per_ray(static_cast<double>(work.steps))}};
   // Tests are taken to be of kinds in the shares that candidates have, each looked up once a ray.
-  const Kinds kinds = kinds_of(engine, geometry, sample, 1 + work.object_tests / kMostCandidates, *scratch);
+  const TestedKinds kinds = tested_kinds(engine, geometry, sample, work.object_tests, *scratch);
   const double repeated = kinds.all() > 0 ? tests / kinds.all() : 0;
   const std::array names = {"triangle_test", "polygon_test", "sphere_test", "cone_test"};
   for (std::size_t kind = 0; kind < names.size(); ++kind)

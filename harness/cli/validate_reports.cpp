@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "analysis/cost_models/expected_tests.h"
 #include "harness/cli/commands.h"
 #include "harness/cli/formats.h"
 #include "scenes/core/spec.h"
@@ -24,6 +25,16 @@ std::vector<const analysis::CostModel*> models_named(const std::vector<std::stri
   return chosen;
 }
 
+/// The tests that models expect beside those that were counted; returns whether the bound holds.
+bool validate_tests(const ReportValidation& options, const std::vector<analysis::Group>& groups,
+                    const std::vector<const analysis::CostModel*>& models) {
+  const std::vector<analysis::Table> tables = analysis::tests_tables(groups, models);
+  if (tables.empty())
+    throw report::ReportError("no cell has expected tests that could be held against counted ones");
+  fmt::print("{}", analysis::render(tables, analysis::kFormats.at(options.format)));
+  return !options.max_test_error || analysis::tests_hold(groups, models, *options.max_test_error);
+}
+
 }  // namespace
 
 CLI::Option* add_report_options(CLI::App& command, ReportValidation& validation) {
@@ -41,6 +52,14 @@ CLI::Option* add_report_options(CLI::App& command, ReportValidation& validation)
       ->check(CLI::Range(-1.0, 1.0))
       ->needs(reports);
   command.add_flag("--cells", validation.with_cells, "Show the predicted time of every cell")->needs(reports);
+  auto* tests = command.add_flag("--tests", validation.of_tests,
+                                 "Hold the tests that models expect against those counted, not times");
+  tests->needs(reports);
+  command
+      .add_option("--max-test-error", validation.max_test_error,
+                  "Relative error of expected tests that no cell of any model may exceed")
+      ->check(CLI::PositiveNumber)
+      ->needs(tests);
   add_format(command, validation.format)->needs(reports);
   return reports;
 }
@@ -54,6 +73,7 @@ bool validate_reports(const ReportValidation& options) {
     auto more = analysis::groups(report);
     std::move(more.begin(), more.end(), std::back_inserter(groups));
   }
+  if (options.of_tests) return validate_tests(options, groups, models);
   const analysis::Validation validation = analysis::validate(groups, models, options.bounds);
   const analysis::Format format = analysis::kFormats.at(options.format);
   fmt::print("{}",

@@ -11,6 +11,9 @@ struct ReportValidation {
   std::vector<std::string> reports, models;
   analysis::ModelBounds bounds;
   bool with_cells = false;
+  /// Tests that are expected instead of times; and the error that none may exceed.
+  bool of_tests = false;
+  std::optional<double> max_test_error;
   std::string format = "text";
 };
 

@@ -30,6 +30,14 @@ Mean efficiency(const CountedWork& counted, std::uint32_t objects) {
                  counted.distinct_differences / (rays * rays), objects);
 }
 
+/// Leaf-count variability; absent where there are no cells.
+std::optional<double> cells_deviation(const CountedWork& counted) {
+  if (counted.total.cells == 0) return std::nullopt;
+  const auto rays = static_cast<double>(counted.total.rays);
+  const double mean = static_cast<double>(counted.total.cells) / rays;
+  return std::sqrt(std::max(0.0, counted.cell_squares / rays - mean * mean));
+}
+
 /// Rays in runs of neighbours, which are alike: the runs are what is independent.
 struct SampledRuns {
   CountedWork counted;
@@ -105,17 +113,6 @@ std::pair<Work, Mean> count_strict(const Engine<Real>& engine, const Batch<Real>
   return {sample.counted.total, efficiency(sample, objects)};
 }
 
-/// The fraction of rays whose interval meets a box.
-template <class Real>
-double fraction_hitting(const Box<Real>& box, const Batch<Real>& batch) {
-  const auto hits = [&](const Ray<Real>& ray) {
-    const Interval<Real> inside = Crossings<Real>(ray).inside(box);
-    return inside.enter <= inside.exit && inside.exit > ray.t_min && inside.enter <= ray.t_max;
-  };
-  const auto count = std::count_if(batch.rays.begin(), batch.rays.end(), hits);
-  return batch.rays.empty() ? 0 : static_cast<double>(count) / static_cast<double>(batch.rays.size());
-}
-
 }  // namespace
 
 template <class Real>
@@ -136,18 +133,7 @@ Counts count(const Engine<Real>& engine, const Batch<Real>& batch, std::uint32_t
   counted += count_rays(engine, Query::any, batch.any(), scratch, threads);
   const auto [strict, m_strict] = count_strict(engine, batch, objects, strict_tests, seed, scratch, threads);
   const Mean m = efficiency(counted, objects);
-  return {counted.total, strict, {m.m, m.ci95, m_strict.m, m_strict.ci95}};
-}
-
-template <class Real>
-std::optional<report::Predicted> predict(const Engine<Real>& engine, const Batch<Real>& batch) {
-  const auto prediction = engine.predicted();
-  if (!prediction) return std::nullopt;
-  // A technique that tests no volume is not shielded by its root: every ray costs it the same.
-  if (prediction->volume_tests == 0) return report::Predicted{prediction->object_tests, 0};
-  const double fraction = fraction_hitting(prediction->root, batch);
-  return report::Predicted{fraction * prediction->object_tests,
-                           fraction * prediction->volume_tests + (1 - fraction)};
+  return {counted.total, strict, {m.m, m.ci95, m_strict.m, m_strict.ci95}, cells_deviation(counted)};
 }
 
 template Counts count<float>(const Engine<float>&, const Batch<float>&, std::uint32_t, double, std::uint64_t,
@@ -156,7 +142,5 @@ template Counts count<double>(const Engine<double>&, const Batch<double>&, std::
                               std::uint64_t, int);
 template double relative_m_error(const Engine<float>&, const Batch<float>&, std::uint32_t, int);
 template double relative_m_error(const Engine<double>&, const Batch<double>&, std::uint32_t, int);
-template std::optional<report::Predicted> predict<float>(const Engine<float>&, const Batch<float>&);
-template std::optional<report::Predicted> predict<double>(const Engine<double>&, const Batch<double>&);
 
 }  // namespace rayshoot

@@ -11,6 +11,8 @@ namespace rayshoot {
 struct Counts {
   Work work, strict_work;
   report::Efficiency efficiency;
+  /// Standard deviation of the cells of a ray; absent where there are no cells.
+  std::optional<double> cells_deviation;
 };
 
 /// Count the work of all rays and, on a random subset of about `strict_tests` ray-object tests where all rays
@@ -23,9 +25,5 @@ Counts count(const Engine<Real>& engine, const Batch<Real>& batch, std::uint32_t
 template <class Real>
 double relative_m_error(const Engine<Real>& engine, const Batch<Real>& batch, std::uint32_t objects,
                         int threads);
-
-/// Equation (3) per ray of the batch; absent where the technique does not predict.
-template <class Real>
-std::optional<report::Predicted> predict(const Engine<Real>& engine, const Batch<Real>& batch);
 
 }  // namespace rayshoot

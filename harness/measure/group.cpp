@@ -7,8 +7,11 @@
 
 #include "harness/measure/building.h"
 #include "harness/measure/counting.h"
+#include "harness/measure/end_point_overlap.h"
+#include "harness/measure/predicting.h"
 #include "harness/measure/published.h"
 #include "harness/measure/record.h"
+#include "harness/measure/tested_kinds.h"
 #include "harness/measure/timing.h"
 #include "harness/verify/oracle.h"
 
@@ -20,6 +23,8 @@ namespace {
 constexpr double kShortSeconds = 0.01;
 /// Passes longer than this are not warmed up again: checking their answers has done that.
 constexpr double kLongSeconds = 0.25;
+/// Points of the surfaces by which end-point overlap is estimated.
+constexpr std::size_t kEndPoints = 32'768;
 
 std::string query_of(const RaySet& set) {
   if (set.closest_rays == set.rays.size()) return "closest";
@@ -142,6 +147,7 @@ class GroupRun {
       for (const Built<Real>& one : *built)
         if (wanted(*one.choice, rays)) cells.push_back(new_cell(one, rays.set));
     verify(cells, batch, oracle);
+    known_rays_.reset();
     for (Cell<Real>& cell : cells) count_cell(cell, batch);
     if (suite_.graded_rays > 0) grade(cells, batch);
     if (!suite_.counts_only) time(cells, batch);
@@ -239,6 +245,20 @@ class GroupRun {
     measurement.work = record(counts.work, events);
     measurement.strict_work = record(counts.strict_work, events);
     measurement.efficiency = counts.efficiency;
+    measurement.cells_deviation = counts.cells_deviation;
+    measurement.tested_kinds = record(
+        tested_kinds(cell.engine(), geometry_, batch, counts.work.object_tests, cell.scratch->local()));
+    count_hierarchy(cell, batch);
+  }
+
+  /// What is expected of a hierarchy of volumes, beyond equation (3).
+  void count_hierarchy(Cell<Real>& cell, const Batch<Real>& batch) {
+    if (cell.engine().path_tests().empty() || geometry_.has_placed()) return;
+    if (!known_rays_) known_rays_.emplace(geometry_, batch, suite_.seed, all_threads_);
+    if (!end_points_) end_points_ = surface_points(geometry_, kEndPoints, suite_.seed);
+    cell.measurement.sampled_prediction = known_rays_->predict(cell.engine(), all_threads_);
+    cell.measurement.end_point_overlap =
+        end_point_overlap(cell.engine(), geometry_, *end_points_, all_threads_);
   }
 
   TimedPass timed_pass(Cell<Real>& cell, const Batch<Real>& batch, int threads) const {
@@ -313,6 +333,9 @@ class GroupRun {
   RaySample<Real> sample_;
   std::optional<References<Real>> references_;
   std::optional<ExactOracle<Real>> exact_;
+  /// Made when the first hierarchy needs them: for the rays at hand, and for all.
+  std::optional<KnownRays<Real>> known_rays_;
+  std::optional<std::vector<SurfacePoint>> end_points_;
 };
 
 }  // namespace

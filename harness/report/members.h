@@ -123,6 +123,15 @@ void members(T& work, Visitor& visitor) {
   visitor.optional("events", work.events);
 }
 
+template <Some<TestedKinds> T, class Visitor>
+void members(T& kinds, Visitor& visitor) {
+  visitor.required("triangles", kinds.triangles);
+  visitor.required("polygons", kinds.polygons);
+  visitor.required("spheres", kinds.spheres);
+  visitor.required("cones", kinds.cones);
+  visitor.required("polygon_vertices", kinds.polygon_vertices);
+}
+
 template <Some<Structure> T, class Visitor>
 void members(T& structure, Visitor& visitor) {
   visitor.required("nodes", structure.nodes);
@@ -138,6 +147,21 @@ template <Some<Predicted> T, class Visitor>
 void members(T& predicted, Visitor& visitor) {
   visitor.required("object_tests_per_ray", predicted.object_tests_per_ray);
   visitor.required("volume_tests_per_ray", predicted.volume_tests_per_ray);
+}
+
+template <Some<SampledPrediction> T, class Visitor>
+void members(T& prediction, Visitor& visitor) {
+  visitor.required("sampled_rays", prediction.sampled_rays);
+  visitor.required("unoccluded", prediction.unoccluded);
+  visitor.required("occluded", prediction.occluded);
+  visitor.required("ordered", prediction.ordered);
+}
+
+template <Some<EndPointOverlap> T, class Visitor>
+void members(T& overlap, Visitor& visitor) {
+  visitor.required("points", overlap.points);
+  visitor.required("object_tests_per_point", overlap.object_tests_per_point);
+  visitor.required("volume_tests_per_point", overlap.volume_tests_per_point);
 }
 
 template <Some<Efficiency> T, class Visitor>
@@ -201,8 +225,12 @@ void members(T& measurement, Visitor& visitor) {
   visitor.required("verdict", measurement.verdict);
   visitor.optional("work", measurement.work);
   visitor.optional("strict_work", measurement.strict_work);
+  visitor.optional("tested_kinds", measurement.tested_kinds);
   visitor.optional("structure", measurement.structure);
   visitor.optional("predicted", measurement.predicted);
+  visitor.optional("sampled_prediction", measurement.sampled_prediction);
+  visitor.optional("end_point_overlap", measurement.end_point_overlap);
+  visitor.optional("cells_deviation", measurement.cells_deviation);
   visitor.optional("efficiency", measurement.efficiency);
   visitor.optional("errors", measurement.errors);
   visitor.optional("build_ns", measurement.build_ns);

@@ -114,10 +114,33 @@ struct Structure {
   std::map<std::string, double> figures{};
 };
 
+/// Shares of the ray-object tests by kind of object, of the distinct candidates of rays, and the vertices of polygons by test
+/// of any kind.
+struct TestedKinds {
+  double triangles = 0, polygons = 0, spheres = 0, cones = 0, polygon_vertices = 0;
+};
+
 /// Equation (3), per ray of the set: the expected tests of a ray that hits the root volume times the fraction of
 /// rays that do, and the root volume's own test.
 struct Predicted {
   double object_tests_per_ray = 0, volume_tests_per_ray = 0;
+};
+
+/// Equation (3) per ray of the set with the chances of a sample of its rays in place of surface areas.
+struct SampledPrediction {
+  /// How many rays the chances are of.
+  std::uint64_t sampled_rays = 0;
+  /// A volume is entered by all rays that meet it; by those that meet it no farther than their nearest hit; and by those
+  /// that still look for something when the search, in the order of the technique, comes to it.
+  Predicted unoccluded, occluded, ordered;
+};
+
+/// End-point overlap (Aila, Karras & Laine 2013): the tests of a ray that would end at a random point of the surfaces, in
+/// volumes in which the object of the point is not.
+struct EndPointOverlap {
+  /// How many points it was estimated from.
+  std::uint64_t points = 0;
+  double object_tests_per_point = 0, volume_tests_per_point = 0;
 };
 
 /// Revelles' M, equation (21), with 95 % confidence intervals.
@@ -191,8 +214,13 @@ struct Measurement {
   std::optional<Work> work;
   /// Work of the strict optimizer on the same rays, or on the random subset that `rays` of it counts.
   std::optional<Work> strict_work;
+  std::optional<TestedKinds> tested_kinds;
   std::optional<Structure> structure;
   std::optional<Predicted> predicted;
+  std::optional<SampledPrediction> sampled_prediction;
+  std::optional<EndPointOverlap> end_point_overlap;
+  /// Standard deviation, over the rays, of the leaf cells visited: leaf-count variability (Aila, Karras & Laine 2013).
+  std::optional<double> cells_deviation;
   std::optional<Efficiency> efficiency;
   std::optional<Errors> errors;
   /// Wall time of each build and of each pass over the whole batch, in nanoseconds.

@@ -4,6 +4,7 @@
 
 #include "altered_technique.h"
 #include "harness/measure/counting.h"
+#include "harness/measure/predicting.h"
 #include "harness/verify/scene_tracer.h"
 #include "scenes/io/load_scene.h"
 #include "scenes/rays/load_rays.h"

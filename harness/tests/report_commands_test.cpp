@@ -113,6 +113,22 @@ TEST_F(ReportCommands, ValidateFailsWhenABoundDoes) {
               HasSubstr("technique,cell,model,measured_ns_per_ray,predicted_ns_per_ray,error\n"));
 }
 
+TEST_F(ReportCommands, ValidateHoldsExpectedTestsAgainstCountedOnes) {
+  write("r.json");
+  const Outcome tests = program({"validate", "r.json", "--tests"});
+  EXPECT_EQ(tests.status, 0) << tests.errors;
+  EXPECT_THAT(tests.output, AllOf(HasSubstr("equation_3_occluded"), HasSubstr("Tests of a ray, whitted"),
+                                  Not(HasSubstr("havran"))));
+  const Outcome bound =
+      program({"validate", "r.json", "--tests", "--max-test-error", "0.05", "--model", "equation_3"});
+  EXPECT_EQ(bound.status, 1) << "surface areas know nothing of these rays";
+  EXPECT_EQ(program({"validate", "r.json", "--tests", "--max-test-error", "1000"}).status, 0);
+  EXPECT_EQ(program({"validate", "r.json", "--max-test-error", "1"}).status, 2);
+  const Outcome nothing = program({"validate", "r.json", "--tests", "--model", "havran"});
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_THAT(nothing.errors, HasSubstr("no cell has expected tests"));
+}
+
 TEST_F(ReportCommands, TablesOfOnesOwn) {
   write("r.json");
   const Outcome table = program({"table", "--rows", "technique", "--columns", "scene", "--metric", "nodes",

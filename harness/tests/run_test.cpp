@@ -16,6 +16,7 @@ using report::Status;
 using ::testing::Each;
 using ::testing::Gt;
 using ::testing::IsEmpty;
+using ::testing::Optional;
 using ::testing::SizeIs;
 
 class SilentObserver final : public RunObserver {
@@ -62,6 +63,18 @@ TEST_F(RunTest, ARightTechniqueIsVerifiedCountedAndTimed) {
   EXPECT_THAT(m.trace_ns, SizeIs(3));
   EXPECT_THAT(m.build_ns, SizeIs(3));
   EXPECT_THAT(m.trace_ns, Each(Gt(0)));
+}
+
+TEST_F(RunTest, MoreIsExpectedOfAHierarchyThanOfAGrid) {
+  for (const char* id : {"bvh_sah", "uniform_grid"}) plan_.techniques.push_back(choose_technique(id));
+  const report::Report report = run();
+  const report::Measurement &hierarchy = report.measurements.at(0), &grid = report.measurements.at(1);
+  ASSERT_TRUE(hierarchy.predicted && hierarchy.sampled_prediction && hierarchy.end_point_overlap);
+  EXPECT_GE(4 * hierarchy.sampled_prediction->sampled_rays, hierarchy.work->rays);
+  EXPECT_LT(hierarchy.sampled_prediction->sampled_rays, hierarchy.work->rays);
+  EXPECT_FALSE(grid.predicted || grid.sampled_prediction || grid.end_point_overlap);
+  EXPECT_THAT(hierarchy.cells_deviation, Optional(Gt(0)));
+  EXPECT_THAT(grid.cells_deviation, Optional(Gt(0)));
 }
 
 TEST_F(RunTest, AWrongTechniqueGetsAVerdictAndNoTime) {

@@ -22,7 +22,13 @@ const analysis::CostModel& cost_model_equation_3() {
         const auto& predicted = entry.measurement->predicted;
         if (!predicted) return std::nullopt;
         return std::vector{predicted->volume_tests_per_ray, predicted->object_tests_per_ray};
-      }};
+      },
+      .tests = ExpectedTests{
+          "areas", [](const report::Measurement& measurement) -> std::optional<report::Predicted> {
+            // Without volumes there is no hierarchy that it speaks of.
+            const auto& predicted = measurement.predicted;
+            return predicted && predicted->volume_tests_per_ray > 0 ? predicted : std::nullopt;
+          }}};
   return model;
 }
 

@@ -66,8 +66,12 @@ inline report::Report full_report() {
        .verdict = {report::Status::graded, 30, 1, "exhaustive", "one ray differs"},
        .work = report::Work{30, 120, 100, 60, 90, 80, 20, 10, {{"states_shared", 7}}},
        .strict_work = report::Work{15, 240, 200, 61, 91, 81, 21, 11},
+       .tested_kinds = report::TestedKinds{0.125, 0.25, 0.5, 0.0625, 1.5},
        .structure = report::Structure{64, 63, 40, 120, 1, 4096, {{"void_area_per_object", 0.5}}},
        .predicted = report::Predicted{4.5, 2.25},
+       .sampled_prediction = report::SampledPrediction{7, {4, 2}, {3.5, 1.75}, {3.25, 1.5}},
+       .end_point_overlap = report::EndPointOverlap{1000, 0.125, 0.75},
+       .cells_deviation = 1.375,
        .efficiency = report::Efficiency{0.036, {0.03, 0.042}, 0.14, {0.13, 0.15}},
        .errors =
            report::Errors{
