@@ -84,7 +84,7 @@ void KnownRays<Real>::find_hits(const Geometry<Real>& geometry, const Engine<Rea
   part.hits.resize(part.rays.size());
   part.to_nearest.resize(part.rays.size());
   ThreadScratch<Real> scratch(engine);
-  for_batches(part.rays.size(), threads, [&](std::size_t first, std::size_t last) {
+  for_batches(part.rays.size(), kRaysPerBatch, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       Ray<Real> ray = begun(part.rays[i]);
       for (const std::uint32_t object : engine.candidates(Query::strict, ray, scratch.local()))
