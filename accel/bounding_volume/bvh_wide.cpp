@@ -221,7 +221,7 @@ class BvhWide {
     if (as_given.is_coherent()) return {.rays = rays, .in_packets = !margin_};
     return {rays, scratch.order.sorted(rays, tree_.bounds)};
   }
-  Real margin_of(const Ray<Real>& ray) const { return margin_ ? margin_->of_ray(ray) : 0; }
+  Real margin_of(const Ray<Real>& ray) const { return margin_ ? box_margin(*margin_, ray) : 0; }
   static bool triangles_suit(const Geometry<Real>& geometry) {
     return geometry.mostly_triangles() && geometry.intersector() == Intersector::fast;
   }

@@ -12,6 +12,12 @@
 
 namespace rayshoot {
 
+/// What boxes must grow by for a ray, as a number that leaves boxes without objects empty.
+template <class Real>
+Real box_margin(const SurfaceMargin<Real>& margin, const Ray<Real>& ray) {
+  return std::min(margin.of_ray(ray), std::numeric_limits<Real>::max() / 4);
+}
+
 /// What a kernel searches.
 struct WideScene {
   const WideTree<float>& tree;
@@ -24,7 +30,7 @@ struct WideScene {
 
   template <class OneRay>
   float margin_of(const OneRay& ray) const {
-    return margin ? margin->of_ray(ray.begun()) : 0;
+    return margin ? box_margin(*margin, ray.begun()) : 0;
   }
 };
 

@@ -138,7 +138,7 @@ TEST(BvhWide, CutsWhatIsMostlyVoidWhereRaysMeetMuchOfIt) {
   EXPECT_EQ(references(few, "3"), 200u);
   EXPECT_EQ(references(mesh, "3"), mesh.size());
 
-  const auto rays = nasty::rays(many, 1, 300);
+  const auto rays = coherent_rays(1, {3, 2.5, 2}, {-1.2, -0.8, 0});
   const auto tests = [&](const char* budget) {
     return counted(*build<float>("bvh_wide", many, {{"split_budget", budget}}), Query::closest, rays)
         .work.object_tests;
