@@ -1,21 +1,17 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "analysis/plots/growth.h"
 #include "analysis/plots/plots.h"
 #include "analysis/plots/series.h"
 #include "analysis/tables/comparison.h"
+#include "analysis/tables/families.h"
 
 namespace rayshoot::analysis {
 
 namespace {
-
-/// Fewer sizes of a scene say nothing about growth.
-constexpr std::size_t kLeastSizes = 3;
 
 struct Growing {
   const char *name, *axis, *words;
@@ -26,33 +22,6 @@ struct Growing {
 constexpr Growing kGrowing[] = {{"time", "time, ns per ray", "Time", trace_ns_per_ray, true},
                                 {"build", "build, ms", "Build", build_milliseconds, false},
                                 {"memory", "structure, bytes", "Memory", structure_bytes, false}};
-
-/// A scene in several sizes, seen by one distribution of rays in one precision.
-struct Family {
-  std::string scene, rays, precision;
-  std::map<std::uint64_t, const Group*> by_objects;
-};
-
-std::vector<Family> families(const std::vector<Group>& groups) {
-  std::vector<Family> result;
-  for (const Group& group : groups) {
-    if (!group.scene || !group.rays || group.entries.empty()) continue;
-    const std::string prefix = group.scene_id + "/";
-    const Family family{
-        fmt::format("{} as {}", group.scene->generator, group.scene->form),
-        group.rays_id.starts_with(prefix) ? group.rays_id.substr(prefix.size()) : group.rays_id,
-        precision_of(group),
-        {}};
-    auto found = std::find_if(result.begin(), result.end(), [&](const Family& other) {
-      return std::tie(other.scene, other.rays, other.precision) ==
-             std::tie(family.scene, family.rays, family.precision);
-    });
-    if (found == result.end()) found = result.insert(result.end(), family);
-    found->by_objects[group.scene->objects] = &group;
-  }
-  std::erase_if(result, [](const Family& family) { return family.by_objects.size() < kLeastSizes; });
-  return result;
-}
 
 std::map<std::string, Curve> curves(const Family& family, Quantity quantity) {
   std::map<std::string, Curve> result;
