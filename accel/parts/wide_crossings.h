@@ -50,6 +50,7 @@ struct WideRay {
     const __m256 all = _mm256_loadu_ps(&given.origin.x);
     const __m256 from_zero = _mm256_blend_ps(all, _mm256_max_ps(all, _mm256_setzero_ps()), 0b1000);
     _mm256_storeu_ps(&begun_.origin.x, from_zero);
+    origin_ = _mm256_castps256_ps128(from_zero);
 
     const __m128 limit = _mm_set1_ps(std::numeric_limits<float>::max() / 2);
     // In the last lane stands t_max, whose inverse may be a denormal number, over which processors stumble.
@@ -70,10 +71,13 @@ struct WideRay {
   float earliest(int axis) const { return earliest_[axis]; }
   float latest(int axis) const { return latest_[axis]; }
   float t_min() const { return begun_.t_min; }
+  /// Along x, y and z; the last lane is of no account.
+  __m128 origin_lanes() const { return origin_; }
+  __m128 earliest_lanes() const { return earliest_; }
 
  private:
   Ray<float> begun_;
-  __m128 earliest_, latest_;
+  __m128 origin_, earliest_, latest_;
 };
 
 /// A ray prepared for testing the boxes of wide nodes, all of them as if grown by `margin`: where that is 0,
@@ -86,13 +90,16 @@ class WideCrossings<Isa, float> {
  public:
   template <class OneRay>
   explicit WideCrossings(const OneRay& ray, float margin = 0) {
+    const __m128 earliest = ray.earliest_lanes(), origin = ray.origin_lanes();
+    const auto signs = static_cast<unsigned>(_mm_movemask_ps(earliest));
+    // To come from farther back and to look farther ahead is to meet larger boxes.
+    const __m128 grown = _mm_xor_ps(_mm_set1_ps(margin), _mm_and_ps(earliest, _mm_set1_ps(-0.0f)));
+    const __m128 near_origin = origin + grown, far_origin = origin - grown;
     for (int axis = 0; axis < 3; ++axis) {
-      near_[axis] = std::signbit(ray.earliest(axis));
-      // To come from farther back and to look farther ahead is to meet larger boxes.
-      const float grown = near_[axis] ? -margin : margin;
-      near_origin_[axis] = _mm256_set1_ps(ray.origin(axis) + grown);
-      far_origin_[axis] = _mm256_set1_ps(ray.origin(axis) - grown);
-      earliest_[axis] = _mm256_set1_ps(ray.earliest(axis));
+      near_[axis] = signs >> axis & 1;
+      near_origin_[axis] = _mm256_set1_ps(near_origin[axis]);
+      far_origin_[axis] = _mm256_set1_ps(far_origin[axis]);
+      earliest_[axis] = _mm256_set1_ps(earliest[axis]);
       latest_[axis] = _mm256_set1_ps(ray.latest(axis));
     }
     start_ = _mm256_set1_ps(ray.t_min());

@@ -69,6 +69,8 @@ struct WidePacketRay {
   float earliest(int axis) const { return packet.earliest[axis][lane]; }
   float latest(int axis) const { return packet.latest[axis][lane]; }
   float t_min() const { return packet.t_min[lane]; }
+  __m128 origin_lanes() const { return _mm_setr_ps(origin(0), origin(1), origin(2), 0); }
+  __m128 earliest_lanes() const { return _mm_setr_ps(earliest(0), earliest(1), earliest(2), 0); }
   Ray<float> begun() const {
     const WidePacket<Isa>& p = packet;
     return {.origin = {origin(0), origin(1), origin(2)},
