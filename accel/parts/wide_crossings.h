@@ -89,21 +89,10 @@ template <class Isa>
 class WideCrossings<Isa, float> {
  public:
   template <class OneRay>
-  explicit WideCrossings(const OneRay& ray, float margin = 0) {
-    const __m128 earliest = ray.earliest_lanes(), origin = ray.origin_lanes();
-    const auto signs = static_cast<unsigned>(_mm_movemask_ps(earliest));
-    // To come from farther back and to look farther ahead is to meet larger boxes.
-    const __m128 grown = _mm_xor_ps(_mm_set1_ps(margin), _mm_and_ps(earliest, _mm_set1_ps(-0.0f)));
-    const __m128 near_origin = origin + grown, far_origin = origin - grown;
-    for (int axis = 0; axis < 3; ++axis) {
-      near_[axis] = signs >> axis & 1;
-      near_origin_[axis] = _mm256_set1_ps(near_origin[axis]);
-      far_origin_[axis] = _mm256_set1_ps(far_origin[axis]);
-      earliest_[axis] = _mm256_set1_ps(earliest[axis]);
-      latest_[axis] = _mm256_set1_ps(ray.latest(axis));
-    }
-    start_ = _mm256_set1_ps(ray.t_min());
-  }
+  explicit WideCrossings(const OneRay& ray) : WideCrossings(ray, ray.origin_lanes(), ray.origin_lanes()) {}
+  template <class OneRay>
+  WideCrossings(const OneRay& ray, float margin)
+      : WideCrossings(ray, grown(ray, margin), grown(ray, -margin)) {}
 
   MetChildren<Isa> met(const WideNode<float>& node, float reach) const {
     const __m256 enter = _mm256_max_ps(_mm256_max_ps(enters(node, 0), enters(node, 1)),
@@ -114,6 +103,26 @@ class WideCrossings<Isa, float> {
   }
 
  private:
+  template <class OneRay>
+  WideCrossings(const OneRay& ray, __m128 near_origin, __m128 far_origin) {
+    const __m128 earliest = ray.earliest_lanes();
+    const auto signs = static_cast<unsigned>(_mm_movemask_ps(earliest));
+    for (int axis = 0; axis < 3; ++axis) {
+      near_[axis] = signs >> axis & 1;
+      near_origin_[axis] = _mm256_set1_ps(near_origin[axis]);
+      far_origin_[axis] = _mm256_set1_ps(far_origin[axis]);
+      earliest_[axis] = _mm256_set1_ps(earliest[axis]);
+      latest_[axis] = _mm256_set1_ps(ray.latest(axis));
+    }
+    start_ = _mm256_set1_ps(ray.t_min());
+  }
+  /// To come from farther back and to look farther ahead is to meet larger boxes.
+  template <class OneRay>
+  static __m128 grown(const OneRay& ray, float margin) {
+    const __m128 signs = _mm_and_ps(ray.earliest_lanes(), _mm_set1_ps(-0.0f));
+    return ray.origin_lanes() + _mm_xor_ps(_mm_set1_ps(margin), signs);
+  }
+
   __m256 enters(const WideNode<float>& node, int axis) const {
     return (_mm256_load_ps(node.planes[axis][near_[axis]]) - near_origin_[axis]) * earliest_[axis];
   }

@@ -12,20 +12,20 @@ namespace rayshoot {
 template <class Isa>
 struct WideSearch {
   static void closest_of_all(const WideScene& scene, const WideBatch& batch, std::span<Hit<float>> hits) {
-    suited(scene, batch, [&](auto others, const auto& manner) {
-      const auto one = [&](std::size_t i) { hits[i] = closest<others>(scene, manner, batch.rays[i]); };
+    suited(scene, batch, [&]<class Kind>(Kind, const auto& manner) {
+      const auto one = [&](std::size_t i) { hits[i] = closest<Kind>(scene, manner, batch.rays[i]); };
       const auto packet = [&](Packet& rays, std::size_t first) {
-        closest_of_packet<others>(scene, rays);
+        closest_of_packet<Kind>(scene, rays);
         for (std::uint32_t lane = 0; lane < Packet::kRays; ++lane) hits[first + lane] = rays.hit(lane);
       };
       for_each(batch, one, packet);
     });
   }
   static void any_of_all(const WideScene& scene, const WideBatch& batch, std::span<std::uint8_t> blocked) {
-    suited(scene, batch, [&](auto others, const auto& manner) {
-      const auto one = [&](std::size_t i) { blocked[i] = any<others>(scene, manner, batch.rays[i]); };
+    suited(scene, batch, [&]<class Kind>(Kind, const auto& manner) {
+      const auto one = [&](std::size_t i) { blocked[i] = any<Kind>(scene, manner, batch.rays[i]); };
       const auto packet = [&](Packet& rays, std::size_t first) {
-        any_of_packet<others>(scene, rays);
+        any_of_packet<Kind>(scene, rays);
         for (std::uint32_t lane = 0; lane < Packet::kRays; ++lane)
           blocked[first + lane] = rays.reach[lane] == kBlocked;
       };
@@ -38,18 +38,23 @@ struct WideSearch {
   /// Where a ray looks no farther, since it is blocked.
   static constexpr float kBlocked = -1;
 
-  /// Call `search` with whether the scene has others than triangles, and in the manner that suits the rays.
+  /// Whether a scene has others than triangles, and slivers that were cut.
+  template <bool kHasOthers, bool kHasCut>
+  struct KindOf {
+    static constexpr bool kOthers = kHasOthers, kCut = kHasCut;
+  };
+
+  /// Call `search` with the kind of the scene, and in the manner that suits the rays.
   template <class Search>
   static void suited(const WideScene& scene, const WideBatch& batch, const Search& search) {
-    const auto with_manner = [&](auto others) {
-      if (batch.is_sorted() || batch.is_coherent()) return search(others, WideCoherent<Isa>{});
-      search(others, WideIncoherent<Isa, float>{scene.tree.nodes.data(), scene.triangles.begin(),
-                                                WideTriangles::kBytes});
+    const auto with_manner = [&](auto kind) {
+      if (batch.is_sorted() || batch.is_coherent()) return search(kind, WideCoherent<Isa>{});
+      search(kind, WideIncoherent<Isa, float>{scene.tree.nodes.data(), scene.triangles.begin(),
+                                              WideTriangles::kBytes});
     };
-    if (scene.triangles.has_others())
-      with_manner(std::true_type{});
-    else
-      with_manner(std::false_type{});
+    const bool others = scene.triangles.has_others();
+    if (scene.margin) return others ? with_manner(KindOf<true, true>{}) : with_manner(KindOf<false, true>{});
+    return others ? with_manner(KindOf<true, false>{}) : with_manner(KindOf<false, false>{});
   }
 
   /// Call packet(rays, first) for as many rays at once as go together, and one(ray) for the others.
@@ -68,21 +73,21 @@ struct WideSearch {
     for (; first < count; ++first) one(first);
   }
 
-  template <bool kOthers, class Manner>
+  template <class Kind, class Manner>
   [[gnu::flatten, gnu::noinline]] static Hit<float> closest(const WideScene& scene, const Manner& manner,
                                                             const Ray<float>& given) {
     const WideRay<Isa> ray(given);
     if (scene.tree.empty() || !ray.can_hit) return {};
     Nearest nearest{ray.begun().t_max};
-    closest_below<kOthers>(scene, manner, WideChild::interior(0), ray, nearest);
+    closest_below<Kind>(scene, manner, WideChild::interior(0), ray, nearest);
     return nearest.hit();
   }
-  template <bool kOthers, class Manner>
+  template <class Kind, class Manner>
   [[gnu::flatten, gnu::noinline]] static bool any(const WideScene& scene, const Manner& manner,
                                                   const Ray<float>& given) {
     const WideRay<Isa> ray(given);
     if (scene.tree.empty() || !ray.can_hit) return false;
-    return any_below<kOthers>(scene, manner, WideChild::interior(0), ray, ray.begun().t_max);
+    return any_below<Kind>(scene, manner, WideChild::interior(0), ray, ray.begun().t_max);
   }
 
   /// The nearest hit so far, of equal distances the lowest object.
@@ -97,7 +102,15 @@ struct WideSearch {
     Hit<float> hit() const { return object == kNoObject ? Hit<float>{} : Hit<float>{reach, object}; }
   };
 
-  template <bool kOthers, class Manner, class OneRay>
+  template <class Kind, class OneRay>
+  static WideCrossings<Isa, float> crossings_of(const WideScene& scene, const OneRay& ray) {
+    if constexpr (Kind::kCut)
+      return WideCrossings<Isa, float>(ray, scene.margin_of(ray));
+    else
+      return WideCrossings<Isa, float>(ray);
+  }
+
+  template <class Kind, class Manner, class OneRay>
   static void closest_below(const WideScene& scene, const Manner& manner, WideChild start, const OneRay& ray,
                             Nearest& given) {
     // A copy of its own stays in registers.
@@ -107,7 +120,7 @@ struct WideSearch {
       const float* const rows = scene.triangles.leaf(leaf);
       for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
         // Test the triangles of the leaf at once, then one by one what else is in it.
-        const unsigned others = kOthers ? no_triangles(rows, count, first) : 0;
+        const unsigned others = Kind::kOthers ? no_triangles(rows, count, first) : 0;
         if (others != in_use(count, first)) {
           const auto found = hits_in_leaf<Isa>(ray, rows, count, first, nearest.reach);
           float t[Isa::kObjects];
@@ -125,13 +138,13 @@ struct WideSearch {
       }
       return false;
     };
-    const WideCrossings<Isa, float> crossings(ray, scene.margin_of(ray));
+    const auto crossings = crossings_of<Kind>(scene, ray);
     walk_wide<Isa>(
         scene.tree, start, crossings, NoCount{}, [&] { return nearest.reach; }, manner, visit);
     given = nearest;
   }
 
-  template <bool kOthers, class Manner, class OneRay>
+  template <class Kind, class Manner, class OneRay>
   static bool any_below(const WideScene& scene, const Manner& manner, WideChild start, const OneRay& ray,
                         float reach) {
     bool blocked = false;
@@ -139,7 +152,7 @@ struct WideSearch {
       const std::uint32_t count = leaf.count();
       const float* const rows = scene.triangles.leaf(leaf);
       for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
-        const unsigned others = kOthers ? no_triangles(rows, count, first) : 0;
+        const unsigned others = Kind::kOthers ? no_triangles(rows, count, first) : 0;
         if (others != in_use(count, first) && hits_in_leaf<Isa>(ray, rows, count, first, reach).bits != 0)
           return blocked = true;
         for (unsigned bits = others; bits != 0; bits &= bits - 1)
@@ -148,12 +161,12 @@ struct WideSearch {
       }
       return false;
     };
-    const WideCrossings<Isa, float> crossings(ray, scene.margin_of(ray));
+    const auto crossings = crossings_of<Kind>(scene, ray);
     walk_wide_unordered<Isa>(scene.tree, start, crossings, NoCount{}, reach, manner, visit);
     return blocked;
   }
 
-  template <bool kOthers>
+  template <class Kind>
   [[gnu::flatten, gnu::noinline]] static void closest_of_packet(const WideScene& scene, Packet& packet) {
     const auto keep = [&](std::uint32_t lane, float t, std::uint32_t object) {
       Nearest nearest{packet.reach[lane], packet.object[lane]};
@@ -161,39 +174,39 @@ struct WideSearch {
       packet.reach[lane] = nearest.reach, packet.object[lane] = nearest.object;
     };
     const auto visit = [&](WideChild leaf, unsigned rays) {
-      visit_leaf<kOthers>(scene, packet, leaf, rays, keep);
+      visit_leaf<Kind>(scene, packet, leaf, rays, keep);
     };
     const auto alone = [&](WideChild child, std::uint32_t lane) {
       Nearest nearest{packet.reach[lane], packet.object[lane]};
-      closest_below<kOthers>(scene, WideCoherent<Isa>{}, child, WidePacketRay<Isa>{packet, lane}, nearest);
+      closest_below<Kind>(scene, WideCoherent<Isa>{}, child, WidePacketRay<Isa>{packet, lane}, nearest);
       packet.reach[lane] = nearest.reach, packet.object[lane] = nearest.object;
     };
     walk_packet<Isa>(scene.tree, packet, visit, alone);
   }
 
-  template <bool kOthers>
+  template <class Kind>
   [[gnu::flatten, gnu::noinline]] static void any_of_packet(const WideScene& scene, Packet& packet) {
     const auto block = [&](std::uint32_t lane, float, std::uint32_t) { packet.reach[lane] = kBlocked; };
     const auto visit = [&](WideChild leaf, unsigned rays) {
-      visit_leaf<kOthers>(scene, packet, leaf, rays, block);
+      visit_leaf<Kind>(scene, packet, leaf, rays, block);
     };
     const auto alone = [&](WideChild child, std::uint32_t lane) {
-      if (any_below<kOthers>(scene, WideCoherent<Isa>{}, child, WidePacketRay<Isa>{packet, lane},
-                             packet.reach[lane]))
+      if (any_below<Kind>(scene, WideCoherent<Isa>{}, child, WidePacketRay<Isa>{packet, lane},
+                          packet.reach[lane]))
         packet.reach[lane] = kBlocked;
     };
     walk_packet<Isa>(scene.tree, packet, visit, alone);
   }
 
   /// Call found(lane, t, object) for what rays of a packet hit in a leaf.
-  template <bool kOthers, class Found>
+  template <class Kind, class Found>
   static void visit_leaf(const WideScene& scene, const Packet& packet, WideChild leaf, unsigned rays,
                          const Found& found) {
     const std::uint32_t count = leaf.count();
     const float* const rows = scene.triangles.leaf(leaf);
     const WidePacketTest<Isa> test(rows, count);
     for (std::uint32_t i = 0; i < count; ++i) {
-      if (kOthers && std::isnan(rows[i])) {
+      if (Kind::kOthers && std::isnan(rows[i])) {
         for (unsigned bits = rays; bits != 0; bits &= bits - 1) {
           const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
           const WidePacketRay<Isa> ray{packet, lane};
