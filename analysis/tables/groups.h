@@ -41,7 +41,7 @@ struct Group {
 /// In the order of the report's scenes.
 std::vector<Group> groups(const report::Report& report);
 
-/// Whether rays are handed over one by one, as to every technique but Embree in its modes stream and packet.
+/// Whether rays are traced one by one, as by every technique but Embree in its modes stream and packet, and bvh_wide in batches.
 bool traces_ray_by_ray(const report::Measurement& measurement);
 
 /// Nanoseconds a ray: the median of the repetitions.

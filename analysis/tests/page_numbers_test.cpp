@@ -48,10 +48,18 @@ std::optional<std::string> expected(const Report& report, const Measurement& cel
                            : std::nullopt);
   };
   const auto ratio_to = [&](const std::string& technique, bool inverse) -> std::string {
+    // Those that hand over many rays at a time are the reference only where there is no other.
+    const auto many_at_a_time = [](const Measurement& other) {
+      return other.config.contains("mode") && other.config.at("mode") != report::ConfigValue("single");
+    };
     const Measurement* best = nullptr;
-    for (const Measurement& other : report.measurements)
-      if (same_group(cell, other) && other.technique == technique && !other.trace_ns.empty())
-        if (!best || middle(other.trace_ns) < middle(best->trace_ns)) best = &other;
+    for (const bool many : {false, true}) {
+      if (best) break;
+      for (const Measurement& other : report.measurements)
+        if (same_group(cell, other) && other.technique == technique && many_at_a_time(other) == many &&
+            !other.trace_ns.empty())
+          if (!best || middle(other.trace_ns) < middle(best->trace_ns)) best = &other;
+    }
     if (!best || cell.trace_ns.empty()) return "-";
     return significant(inverse ? ratio_of(best->trace_ns, cell.trace_ns)
                                : ratio_of(cell.trace_ns, best->trace_ns));
