@@ -17,9 +17,6 @@ namespace {
 
 using report::Measurement;
 
-Cell number(std::optional<double> value) { return {value, ""}; }
-Cell words(std::string text) { return {std::nullopt, std::move(text)}; }
-
 /// Value, low and high end.
 void append(std::vector<Cell>& row, const std::optional<Estimate>& estimate) {
   row.push_back(number(estimate ? std::optional(estimate->value) : std::nullopt));

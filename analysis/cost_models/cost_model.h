@@ -41,6 +41,8 @@ struct CostModel {
 
 /// A count of the cell's work per ray; 0 where it was not taken.
 double counted(const Entry& entry, std::uint64_t report::Work::*count);
+/// The terms of B E[n] + I E[m]: the expected tests of volumes and of objects; none where nothing is expected.
+std::optional<std::vector<double>> test_terms(const std::optional<report::Predicted>& expected);
 
 }  // namespace rayshoot::analysis
 

@@ -13,13 +13,6 @@ namespace rayshoot::analysis {
 
 namespace {
 
-Cell words(std::string text) { return {std::nullopt, std::move(text)}; }
-Cell number(std::optional<double> value) { return {value, ""}; }
-Cell percent(std::optional<double> fraction) {
-  return {fraction ? std::optional(100 * *fraction) : fraction, ""};
-}
-Cell whole(std::size_t value) { return {static_cast<double>(value), ""}; }
-
 std::string distribution_of(const Group& group) {
   return group.rays ? group.rays->distribution : group.rays_id;
 }

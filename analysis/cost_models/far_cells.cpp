@@ -21,9 +21,6 @@ constexpr std::array kAssumptionMeanings = {
     "a price of this technique is one: not so where its steps or cells are of several sorts",
     "what is counted is all that costs time"};
 
-Cell words(std::string text) { return {std::nullopt, std::move(text)}; }
-Cell number(double value) { return {value, ""}; }
-
 /// Medians of values by what they belong to.
 template <class Key>
 class Medians {
@@ -68,10 +65,8 @@ Table counts_table(const std::vector<ModelFit>& fits) {
   }
   table.notes.push_back(
       "The logarithm of predicted over measured is what all techniques have in common in a scene, plus what "
-      "they have "
-      "in common on these rays, plus what a technique has in all scenes, plus the rest, each a median. The "
-      "assumption "
-      "that fails is that behind the greatest part.");
+      "they have in common on these rays, plus what a technique has in all scenes, plus the rest, each a "
+      "median. The assumption that fails is that behind the greatest part.");
   return table;
 }
 

@@ -157,6 +157,11 @@ double counted(const Entry& entry, std::uint64_t report::Work::*count) {
   return per_ray(entry.measurement->work, count).value_or(0);
 }
 
+std::optional<std::vector<double>> test_terms(const std::optional<report::Predicted>& expected) {
+  if (!expected) return std::nullopt;
+  return std::vector{expected->volume_tests_per_ray, expected->object_tests_per_ray};
+}
+
 std::vector<ModelFit> fit_models(const std::vector<Group>& groups,
                                  const std::vector<const CostModel*>& models) {
   std::vector<std::pair<std::string, std::vector<const Group*>>> precisions;

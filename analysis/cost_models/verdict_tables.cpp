@@ -14,12 +14,6 @@ namespace rayshoot::analysis {
 
 namespace {
 
-Cell words(std::string text) { return {std::nullopt, std::move(text)}; }
-Cell number(std::optional<double> value) { return {value, ""}; }
-Cell percent(std::optional<double> fraction) {
-  return {fraction ? std::optional(100 * *fraction) : fraction, ""};
-}
-
 std::string name_of(const ModelFit& fit) { return fmt::format("{}, {}", fit.model->id, fit.precision); }
 
 std::string notes_of(const CostModel& model) {

@@ -17,8 +17,6 @@ namespace {
 
 using report::Report;
 
-Cell words(std::string text) { return {std::nullopt, std::move(text)}; }
-
 template <class Value>
 std::string listed(const std::map<std::string, Value>& map) {
   std::vector<std::string> parts;
@@ -94,16 +92,15 @@ Table inputs_table(const std::vector<Report>& reports) {
                           {"refracted", "refracted", "rays", "", Style::whole},
                           {"scene_hash", "scene", "hash", "", Style::text},
                           {"hash", "rays", "hash", "", Style::text}}};
-  const auto count = [](std::uint64_t value) { return Cell{static_cast<double>(value), ""}; };
   for (const Report& report : reports)
     for (const report::RaySet& rays : report.ray_sets)
       for (const report::Scene& scene : report.scenes) {
         if (scene.id != rays.scene) continue;
         std::map<std::string, std::uint64_t> kinds = scene.counts;
         std::erase_if(kinds, [](const auto& kind) { return kind.second == 0; });
-        table.rows.push_back({words(rays.id), count(scene.objects), words(listed(kinds)), count(rays.rays),
-                              count(rays.primary_rays), count(rays.shadow_rays), count(rays.reflected_rays),
-                              count(rays.refracted_rays), words(scene.hash), words(rays.hash)});
+        table.rows.push_back({words(rays.id), whole(scene.objects), words(listed(kinds)), whole(rays.rays),
+                              whole(rays.primary_rays), whole(rays.shadow_rays), whole(rays.reflected_rays),
+                              whole(rays.refracted_rays), words(scene.hash), words(rays.hash)});
       }
   return table;
 }

@@ -15,8 +15,6 @@ namespace {
 /// A choice that costs at most this many times the least is a good one.
 constexpr double kGoodRegret = 1.3;
 
-Cell words(std::string text) { return {std::nullopt, std::move(text)}; }
-
 std::string rays_of(const report::Choice& choice) {
   return choice.rays.starts_with(choice.scene + "/") ? choice.rays.substr(choice.scene.size() + 1)
                                                      : choice.rays;

@@ -12,10 +12,6 @@ using report::Work;
 constexpr const char* kStatusWords[] = {"ok", "wrong", "graded", "failed"};
 constexpr double kNanosecondsPerMillisecond = 1e6, kBytesPerMegabyte = 1e6;
 
-Cell number(std::optional<double> value) { return {value, ""}; }
-Cell whole(std::uint64_t value) { return {static_cast<double>(value), ""}; }
-Cell words(std::string value) { return {std::nullopt, std::move(value)}; }
-
 Cell value_of(const std::optional<Estimate>& estimate) {
   return number(estimate ? std::optional(estimate->value) : std::nullopt);
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// One model of a table and its four renderings.
@@ -36,6 +38,14 @@ struct Cell {
   std::optional<double> number;
   std::string text;
 };
+
+inline Cell words(std::string text) { return {std::nullopt, std::move(text)}; }
+inline Cell number(std::optional<double> value) { return {value, ""}; }
+inline Cell whole(std::uint64_t value) { return {static_cast<double>(value), ""}; }
+/// Of a fraction.
+inline Cell percent(std::optional<double> fraction) {
+  return {fraction ? std::optional(100 * *fraction) : fraction, ""};
+}
 
 /// Every row has a cell for each column. The first column of a page names the row.
 struct Table {

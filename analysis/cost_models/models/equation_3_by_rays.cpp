@@ -9,6 +9,15 @@
 
 namespace rayshoot {
 
+namespace {
+
+std::optional<report::Predicted> expected(const report::Measurement& measurement) {
+  const auto& sampled = measurement.sampled_prediction;
+  return sampled ? std::optional(sampled->unoccluded) : std::nullopt;
+}
+
+}  // namespace
+
 const analysis::CostModel& cost_model_equation_3_by_rays() {
   using namespace analysis;
   static const CostModel model{
@@ -18,17 +27,8 @@ const analysis::CostModel& cost_model_equation_3_by_rays() {
       .source = "this project, after Goldsmith & Salmon 1987",
       .assumptions = "nothing occludes",
       .constants = {{"B"}, {"I"}},
-      .terms = [](const Group&, const Entry& entry) -> std::optional<std::vector<double>> {
-        const auto& sampled = entry.measurement->sampled_prediction;
-        if (!sampled) return std::nullopt;
-        return std::vector{sampled->unoccluded.volume_tests_per_ray,
-                           sampled->unoccluded.object_tests_per_ray};
-      },
-      .tests = ExpectedTests{"rays",
-                             [](const report::Measurement& measurement) -> std::optional<report::Predicted> {
-                               const auto& sampled = measurement.sampled_prediction;
-                               return sampled ? std::optional(sampled->unoccluded) : std::nullopt;
-                             }}};
+      .terms = [](const Group&, const Entry& entry) { return test_terms(expected(*entry.measurement)); },
+      .tests = ExpectedTests{"rays", expected}};
   return model;
 }
 

@@ -9,6 +9,15 @@
 
 namespace rayshoot {
 
+namespace {
+
+std::optional<report::Predicted> expected(const report::Measurement& measurement) {
+  const auto& sampled = measurement.sampled_prediction;
+  return sampled ? std::optional(sampled->occluded) : std::nullopt;
+}
+
+}  // namespace
+
 const analysis::CostModel& cost_model_equation_3_occluded() {
   using namespace analysis;
   static const CostModel model{
@@ -18,19 +27,10 @@ const analysis::CostModel& cost_model_equation_3_occluded() {
       .source = "this project, after Goldsmith & Salmon 1987",
       .assumptions =
           "a search knows the nearest hit before it begins, which it does not where volumes overlap or are "
-          "visited in no "
-          "order of distance; rays that ask for any hit end at the first that is found",
+          "visited in no order of distance; rays that ask for any hit end at the first that is found",
       .constants = {{"B"}, {"I"}},
-      .terms = [](const Group&, const Entry& entry) -> std::optional<std::vector<double>> {
-        const auto& sampled = entry.measurement->sampled_prediction;
-        if (!sampled) return std::nullopt;
-        return std::vector{sampled->occluded.volume_tests_per_ray, sampled->occluded.object_tests_per_ray};
-      },
-      .tests = ExpectedTests{"occluded",
-                             [](const report::Measurement& measurement) -> std::optional<report::Predicted> {
-                               const auto& sampled = measurement.sampled_prediction;
-                               return sampled ? std::optional(sampled->occluded) : std::nullopt;
-                             }}};
+      .terms = [](const Group&, const Entry& entry) { return test_terms(expected(*entry.measurement)); },
+      .tests = ExpectedTests{"occluded", expected}};
   return model;
 }
 

@@ -9,6 +9,15 @@
 
 namespace rayshoot {
 
+namespace {
+
+std::optional<report::Predicted> expected(const report::Measurement& measurement) {
+  const auto& sampled = measurement.sampled_prediction;
+  return sampled ? std::optional(sampled->ordered) : std::nullopt;
+}
+
+}  // namespace
+
 const analysis::CostModel& cost_model_equation_3_ordered() {
   using namespace analysis;
   static const CostModel model{
@@ -18,16 +27,8 @@ const analysis::CostModel& cost_model_equation_3_ordered() {
       .source = "this project, after Goldsmith & Salmon 1987",
       .assumptions = "the sampled rays, of which all hits are known, are like the others",
       .constants = {{"B"}, {"I"}},
-      .terms = [](const Group&, const Entry& entry) -> std::optional<std::vector<double>> {
-        const auto& sampled = entry.measurement->sampled_prediction;
-        if (!sampled) return std::nullopt;
-        return std::vector{sampled->ordered.volume_tests_per_ray, sampled->ordered.object_tests_per_ray};
-      },
-      .tests = ExpectedTests{"ordered",
-                             [](const report::Measurement& measurement) -> std::optional<report::Predicted> {
-                               const auto& sampled = measurement.sampled_prediction;
-                               return sampled ? std::optional(sampled->ordered) : std::nullopt;
-                             }}};
+      .terms = [](const Group&, const Entry& entry) { return test_terms(expected(*entry.measurement)); },
+      .tests = ExpectedTests{"ordered", expected}};
   return model;
 }
 
