@@ -8,8 +8,9 @@
 //            intersector is fast, `closest` and `any` in float are kernels: the triangles of a leaf lie side by side
 //            and get the scalar test, operation by operation in double precision, at once.
 // Parameters instructions  best takes AVX-512 where the processor has it: eight triangles at once, in AVX2 four
-//            mode          single traces ray by ray; batch, where there are kernels, takes many rays at a time: coherent
-//                          ones in packets that part where the rays do, others sorted by where they start and go
+//            mode          single traces ray by ray; batch, where there are kernels, takes many rays at a time: those that
+//                          have little in common sorted by where they start and go; coherent ones as they stand, in
+//                          packets that part where the rays do, but for any hit, where packets part too soon
 //            build         how the binary tree is built: binned, sweep or fast, as bvh_sah's; fast takes half the time,
 //                          and its leaves are clusters, the smallest of which are joined
 //            split_budget  slivers, whose boxes are mostly void, are cut into pieces with boxes of their own, so many for
@@ -25,7 +26,7 @@
 //            one after the other: of a leaf all for the nearest hit, those up to the first hit for any. Rays that are
 //            not finite, and empty ones, hit nothing and are not looked at.
 // Cost       equation (3), exactly, for uniformly distributed rays without occlusion.
-// Weak       spheres, cones and polygons are tested one by one; single precision alone has kernels, and so has the
+// Weak       spheres, cones, and polygons but those of four corners, are tested one by one; single precision alone has kernels, and so has the
 //            fast intersector alone. Slivers, where the memory for cutting them is dear.
 
 #include <fmt/format.h>
@@ -215,11 +216,10 @@ class BvhWide {
   }
   /// Rays that have little in common are sorted, where they are all there are.
   WideBatch batch(std::span<const Ray<float>> rays, Scratch& scratch) const {
-    const WideBatch as_given{rays};
-    if (!batch_) return as_given;
-    // Margins are for single rays.
-    if (as_given.is_coherent()) return {.rays = rays, .in_packets = !margin_};
-    return {rays, scratch.order.sorted(rays, tree_.bounds)};
+    if (const bool coherent = are_coherent(rays); coherent || !batch_)
+      // Margins are for single rays.
+      return {.rays = rays, .coherent = coherent, .in_packets = coherent && batch_ && !margin_};
+    return {.rays = rays, .order = scratch.order.sorted(rays, tree_.bounds), .coherent = true};
   }
   Real margin_of(const Ray<Real>& ray) const { return margin_ ? box_margin(*margin_, ray) : 0; }
   static bool triangles_suit(const Geometry<Real>& geometry) {

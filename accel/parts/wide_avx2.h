@@ -40,6 +40,7 @@ struct WideAvx2 {
   static unsigned negative(Lanes a) { return static_cast<unsigned>(_mm256_movemask_ps(a)); }
 
   static Floats load(const float* from) { return _mm_loadu_ps(from); }
+  static Doubles load(const double* from) { return _mm256_loadu_pd(from); }
   static Floats spread(float value) { return _mm_set1_ps(value); }
   static Doubles spread(double value) { return _mm256_set1_pd(value); }
   static Doubles widened(Floats a) { return _mm256_cvtps_pd(a); }
@@ -66,6 +67,14 @@ struct WideAvx2 {
   // One bit for each lane.
   static unsigned not_above(Floats a, Floats b) { return bits(_mm_cmp_ps(a, b, _CMP_LE_OQ)); }
   static unsigned below(Floats a, Floats b) { return bits(_mm_cmp_ps(a, b, _CMP_LT_OQ)); }
+  static unsigned not_above(Doubles a, Doubles b) { return bits(_mm256_cmp_pd(a, b, _CMP_LE_OQ)); }
+  static unsigned below(Doubles a, Doubles b) { return bits(_mm256_cmp_pd(a, b, _CMP_LT_OQ)); }
+  /// `a`, and in the lanes whose bits are set `b`.
+  static Doubles either(Doubles a, Doubles b, unsigned bits) {
+    const __m256i places = _mm256_setr_epi64x(1, 2, 4, 8);
+    const __m256i set = _mm256_and_si256(_mm256_set1_epi64x(bits), places);
+    return _mm256_blendv_pd(a, b, _mm256_castsi256_pd(_mm256_cmpeq_epi64(set, places)));
+  }
   static unsigned no_numbers(Floats a) { return bits(_mm_cmp_ps(a, a, _CMP_UNORD_Q)); }
   static unsigned covered(Doubles u, Doubles v, Doubles approach) {
     const Doubles zero = _mm256_setzero_pd();
@@ -73,7 +82,7 @@ struct WideAvx2 {
         _mm256_and_pd(_mm256_cmp_pd(u, zero, _CMP_GE_OQ), _mm256_cmp_pd(v, zero, _CMP_GE_OQ));
     const Doubles both = _mm256_and_pd(_mm256_cmp_pd(_mm256_add_pd(u, v), approach, _CMP_LE_OQ),
                                        _mm256_cmp_pd(approach, zero, _CMP_NEQ_OQ));
-    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_and_pd(within, both)));
+    return bits(_mm256_and_pd(within, both));
   }
   static unsigned not_above(__m256 a, __m256 b) {
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LE_OQ)));
@@ -81,6 +90,7 @@ struct WideAvx2 {
 
  private:
   static unsigned bits(__m128 a) { return static_cast<unsigned>(_mm_movemask_ps(a)); }
+  static unsigned bits(__m256d a) { return static_cast<unsigned>(_mm256_movemask_pd(a)); }
 };
 
 }  // namespace rayshoot

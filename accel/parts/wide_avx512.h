@@ -36,6 +36,7 @@ struct WideAvx512 {
   static unsigned negative(Lanes a) { return _mm512_movepi32_mask(_mm512_castps_si512(a)); }
 
   static Floats load(const float* from) { return _mm256_loadu_ps(from); }
+  static Doubles load(const double* from) { return _mm512_loadu_pd(from); }
   static Floats spread(float value) { return _mm256_set1_ps(value); }
   static Doubles spread(double value) { return _mm512_set1_pd(value); }
   static Doubles widened(Floats a) { return _mm512_cvtps_pd(a); }
@@ -55,6 +56,11 @@ struct WideAvx512 {
 
   static unsigned not_above(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   static unsigned below(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+  static unsigned not_above(Doubles a, Doubles b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
+  static unsigned below(Doubles a, Doubles b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
+  static Doubles either(Doubles a, Doubles b, unsigned bits) {
+    return _mm512_mask_mov_pd(a, static_cast<__mmask8>(bits), b);
+  }
   static unsigned no_numbers(Floats a) { return _mm256_cmp_ps_mask(a, a, _CMP_UNORD_Q); }
   static unsigned covered(Doubles u, Doubles v, Doubles approach) {
     const Doubles zero = _mm512_setzero_pd();

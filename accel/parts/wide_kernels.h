@@ -34,11 +34,16 @@ struct WideScene {
   }
 };
 
-/// Rays, the order in which they are traced (none to trace them as they stand), and whether neighbours are searched
-/// together, which is for coherent rays that stand in their own order.
+/// Whether successive rays take much the same way: looked at in 64 places, the directions of most neighbours differ by less than
+/// a tenth of their length.
+bool are_coherent(std::span<const Ray<float>> rays);
+
+/// Rays, the order in which they are traced (none to trace them as they stand), whether those that follow one another so are
+/// alike, and whether neighbours are searched together for their nearest hits, which is for coherent rays as they stand.
 struct WideBatch {
   std::span<const Ray<float>> rays;
   std::span<const std::uint32_t> order{};
+  bool coherent = false;
   bool in_packets = false;
 
   /// Call trace(ray) with the number of each ray in turn.
@@ -51,10 +56,6 @@ struct WideBatch {
       trace(order[i]);
     }
   }
-  bool is_sorted() const { return !order.empty(); }
-  /// Whether successive rays, as they stand, take much the same way: looked at in 64 places, the directions of most neighbours differ
-  /// by less than a tenth of their length.
-  bool is_coherent() const;
 };
 
 /// The queries of bvh_wide for triangles and `Intersector::fast`, in the instructions of one kind of processor.

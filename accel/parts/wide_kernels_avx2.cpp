@@ -6,7 +6,7 @@ namespace rayshoot {
 const WideKernels kWideKernelsAvx2{"avx2", WideSearch<WideAvx2>::closest_of_all,
                                    WideSearch<WideAvx2>::any_of_all};
 
-bool WideBatch::is_coherent() const {
+bool are_coherent(std::span<const Ray<float>> rays) {
   const std::size_t stride = std::max<std::size_t>(rays.size() / 64, 1);
   std::size_t pairs = 0, alike = 0;
   for (std::size_t i = 1; i < rays.size(); i += stride, ++pairs) {

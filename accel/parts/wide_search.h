@@ -2,6 +2,7 @@
 
 #include "accel/parts/wide_kernels.h"
 #include "accel/parts/wide_packet_test.h"
+#include "accel/parts/wide_quad_test.h"
 #include "accel/parts/wide_walk.h"
 
 // Read where code for a kind of processor begins: all that is not included is a template over its instructions.
@@ -23,20 +24,12 @@ struct WideSearch {
   }
   static void any_of_all(const WideScene& scene, const WideBatch& batch, std::span<std::uint8_t> blocked) {
     suited(scene, batch, [&]<class Kind>(Kind, const auto& manner) {
-      const auto one = [&](std::size_t i) { blocked[i] = any<Kind>(scene, manner, batch.rays[i]); };
-      const auto packet = [&](Packet& rays, std::size_t first) {
-        any_of_packet<Kind>(scene, rays);
-        for (std::uint32_t lane = 0; lane < Packet::kRays; ++lane)
-          blocked[first + lane] = rays.reach[lane] == kBlocked;
-      };
-      for_each(batch, one, packet);
+      batch.for_each([&](std::size_t i) { blocked[i] = any<Kind>(scene, manner, batch.rays[i]); });
     });
   }
 
  private:
   using Packet = WidePacket<Isa>;
-  /// Where a ray looks no farther, since it is blocked.
-  static constexpr float kBlocked = -1;
 
   /// Whether a scene has others than triangles, and slivers that were cut.
   template <bool kHasOthers, bool kHasCut>
@@ -48,7 +41,7 @@ struct WideSearch {
   template <class Search>
   static void suited(const WideScene& scene, const WideBatch& batch, const Search& search) {
     const auto with_manner = [&](auto kind) {
-      if (batch.is_sorted() || batch.is_coherent()) return search(kind, WideCoherent<Isa>{});
+      if (batch.coherent) return search(kind, WideCoherent<Isa>{});
       search(kind, WideIncoherent<Isa, float>{scene.tree.nodes.data(), scene.triangles.begin(),
                                               WideTriangles::kBytes});
     };
@@ -116,26 +109,7 @@ struct WideSearch {
     // A copy of its own stays in registers.
     Nearest nearest = given;
     const auto visit = [&](WideChild leaf) {
-      const std::uint32_t count = leaf.count();
-      const float* const rows = scene.triangles.leaf(leaf);
-      for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
-        // Test the triangles of the leaf at once, then one by one what else is in it.
-        const unsigned others = Kind::kOthers ? no_triangles(rows, count, first) : 0;
-        if (others != in_use(count, first)) {
-          const auto found = hits_in_leaf<Isa>(ray, rows, count, first, nearest.reach);
-          float t[Isa::kObjects];
-          if (found.bits != 0) std::memcpy(t, &found.t, sizeof t);
-          for (unsigned bits = found.bits; bits != 0; bits &= bits - 1) {
-            const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-            nearest.keep(t[lane], number_of(rows, count, first + lane));
-          }
-        }
-        for (unsigned bits = others; bits != 0; bits &= bits - 1) {
-          const std::uint32_t place = place_of(leaf, first, bits);
-          const float t = other_hit_distance(scene, place, ray.begun(), nearest.reach);
-          if (t <= nearest.reach) nearest.keep(t, scene.order[place]);
-        }
-      }
+      nearest = nearest_in_leaf<Kind>(scene, leaf, ray, nearest);
       return false;
     };
     const auto crossings = crossings_of<Kind>(scene, ray);
@@ -148,95 +122,125 @@ struct WideSearch {
   static bool any_below(const WideScene& scene, const Manner& manner, WideChild start, const OneRay& ray,
                         float reach) {
     bool blocked = false;
-    const auto visit = [&](WideChild leaf) {
-      const std::uint32_t count = leaf.count();
-      const float* const rows = scene.triangles.leaf(leaf);
-      for (std::uint32_t first = 0; first < count; first += Isa::kObjects) {
-        const unsigned others = Kind::kOthers ? no_triangles(rows, count, first) : 0;
-        if (others != in_use(count, first) && hits_in_leaf<Isa>(ray, rows, count, first, reach).bits != 0)
-          return blocked = true;
-        for (unsigned bits = others; bits != 0; bits &= bits - 1)
-          if (other_hit_distance(scene, place_of(leaf, first, bits), ray.begun(), reach) <= reach)
-            return blocked = true;
-      }
-      return false;
-    };
+    const auto visit = [&](WideChild leaf) { return blocked = any_in_leaf<Kind>(scene, leaf, ray, reach); };
     const auto crossings = crossings_of<Kind>(scene, ray);
     walk_wide_unordered<Isa>(scene.tree, start, crossings, NoCount{}, reach, manner, visit);
     return blocked;
   }
 
-  template <class Kind>
-  [[gnu::flatten, gnu::noinline]] static void closest_of_packet(const WideScene& scene, Packet& packet) {
-    const auto keep = [&](std::uint32_t lane, float t, std::uint32_t object) {
-      Nearest nearest{packet.reach[lane], packet.object[lane]};
-      nearest.keep(t, object);
-      packet.reach[lane] = nearest.reach, packet.object[lane] = nearest.object;
-    };
-    const auto visit = [&](WideChild leaf, unsigned rays) {
-      visit_leaf<Kind>(scene, packet, leaf, rays, keep);
-    };
-    const auto alone = [&](WideChild child, std::uint32_t lane) {
-      Nearest nearest{packet.reach[lane], packet.object[lane]};
-      closest_below<Kind>(scene, WideCoherent<Isa>{}, child, WidePacketRay<Isa>{packet, lane}, nearest);
-      packet.reach[lane] = nearest.reach, packet.object[lane] = nearest.object;
-    };
-    walk_packet<Isa>(scene.tree, packet, visit, alone);
-  }
-
-  template <class Kind>
-  [[gnu::flatten, gnu::noinline]] static void any_of_packet(const WideScene& scene, Packet& packet) {
-    const auto block = [&](std::uint32_t lane, float, std::uint32_t) { packet.reach[lane] = kBlocked; };
-    const auto visit = [&](WideChild leaf, unsigned rays) {
-      visit_leaf<Kind>(scene, packet, leaf, rays, block);
-    };
-    const auto alone = [&](WideChild child, std::uint32_t lane) {
-      if (any_below<Kind>(scene, WideCoherent<Isa>{}, child, WidePacketRay<Isa>{packet, lane},
-                          packet.reach[lane]))
-        packet.reach[lane] = kBlocked;
-    };
-    walk_packet<Isa>(scene.tree, packet, visit, alone);
-  }
-
-  /// Call found(lane, t, object) for what rays of a packet hit in a leaf.
-  template <class Kind, class Found>
-  static void visit_leaf(const WideScene& scene, const Packet& packet, WideChild leaf, unsigned rays,
-                         const Found& found) {
-    const std::uint32_t count = leaf.count();
+  /// The nearest of a hit and those in a leaf.
+  template <class Kind, class OneRay>
+  static Nearest nearest_in_leaf(const WideScene& scene, WideChild leaf, const OneRay& ray, Nearest nearest) {
     const float* const rows = scene.triangles.leaf(leaf);
-    const WidePacketTest<Isa> test(rows, count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (Kind::kOthers && std::isnan(rows[i])) {
-        for (unsigned bits = rays; bits != 0; bits &= bits - 1) {
-          const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-          const WidePacketRay<Isa> ray{packet, lane};
-          const float t = other_hit_distance(scene, leaf.first() + i, ray.begun(), packet.reach[lane]);
-          if (t <= packet.reach[lane]) found(lane, t, scene.order[leaf.first() + i]);
-        }
-        continue;
-      }
-      const unsigned possible = rays & test.may_hit(packet, i);
-      if (possible != 0)
-        test.hits(packet, i, possible,
-                  [&](std::uint32_t lane, float t) { found(lane, t, number_of(rows, count, i)); });
+    unsigned others = 0;
+    for (std::uint32_t first = 0; first < leaf.count(); first += Isa::kObjects)
+      keep(hits_among<Kind>(leaf, first, rows, ray, nearest.reach, others), rows + 9 * leaf.count() + first,
+           nearest);
+    return others == 0 ? nearest : nearest_of_others(scene, leaf, others, ray, nearest);
+  }
+
+  template <class Kind, class OneRay>
+  static bool any_in_leaf(const WideScene& scene, WideChild leaf, const OneRay& ray, float reach) {
+    unsigned others = 0;
+    for (std::uint32_t first = 0; first < leaf.count(); first += Isa::kObjects)
+      if (hits_among<Kind>(leaf, first, scene.triangles.leaf(leaf), ray, reach, others).bits != 0)
+        return true;
+    return others != 0 && nearest_of_others(scene, leaf, others, ray, Nearest{reach}).object != kNoObject;
+  }
+
+  /// The hits with the triangles from number `first` on in a leaf. Sets one bit for each of the `others` there.
+  template <class Kind, class OneRay>
+  static WideDistances<Isa> hits_among(WideChild leaf, std::uint32_t first, const float* rows,
+                                       const OneRay& ray, float reach, unsigned& others) {
+    if constexpr (Kind::kOthers) {
+      const unsigned in_use = wide_objects_in_use<Isa>(leaf.count(), first);
+      const unsigned no_triangles = Isa::no_numbers(Isa::load(rows + first)) & in_use;
+      others |= no_triangles << first;
+      if (no_triangles == in_use) return WideDistances<Isa>{};
+    }
+    return hits_in_leaf<Isa>(ray, rows, leaf.count(), first, reach);
+  }
+
+  /// Keep the nearest of the hits with objects that are called so.
+  static void keep(const WideDistances<Isa>& hits, const float* names, Nearest& nearest) {
+    if (hits.bits == 0) return;
+    float t[Isa::kObjects];
+    std::memcpy(t, &hits.t, sizeof t);
+    for (unsigned bits = hits.bits; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
+      nearest.keep(t[lane], WideOthers::as_number(names[lane]));
     }
   }
 
-  // One bit for each object from number `first` on among the `count` of a leaf: for all, and for what is no triangle.
-  static unsigned in_use(std::uint32_t count, std::uint32_t first) {
-    const std::uint32_t left = count - first;
-    return left < Isa::kObjects ? (1u << left) - 1 : (1u << Isa::kObjects) - 1;
+  /// The nearest of a hit and those with what a leaf holds beside triangles, one bit for each.
+  template <class OneRay>
+  static Nearest nearest_of_others(const WideScene& scene, WideChild leaf, unsigned others, const OneRay& ray,
+                                   Nearest nearest) {
+    if (const WideOthers::Leaf* some = scene.triangles.others(leaf, others)) {
+      nearest = nearest_of_quads(scene.triangles.quads(*some), ray, nearest);
+      others = some->loose;
+    }
+    for (unsigned bits = others; bits != 0; bits &= bits - 1) {
+      const std::uint32_t place = leaf.first() + static_cast<std::uint32_t>(std::countr_zero(bits));
+      const float t = other_hit_distance(scene, place, ray.begun(), nearest.reach);
+      if (t <= nearest.reach) nearest.keep(t, scene.order[place]);
+    }
+    return nearest;
   }
-  static unsigned no_triangles(const float* leaf, std::uint32_t count, std::uint32_t first) {
-    return Isa::no_numbers(Isa::load(leaf + first)) & in_use(count, first);
+
+  template <class OneRay>
+  [[gnu::flatten, gnu::noinline]] static Nearest nearest_of_quads(const WideQuads& quads, const OneRay& ray,
+                                                                  Nearest nearest) {
+    const WideQuadTest<Isa, OneRay> test(ray, quads);
+    for (std::uint32_t first = 0; first < quads.count; first += Isa::kObjects)
+      keep(test.hits(first, nearest.reach), quads.names() + first, nearest);
+    return nearest;
   }
-  /// The place in the order of the object that the lowest of the bits stands for.
-  static std::uint32_t place_of(WideChild leaf, std::uint32_t first, unsigned bits) {
-    return leaf.first() + first + static_cast<std::uint32_t>(std::countr_zero(bits));
+
+  template <class Kind>
+  [[gnu::flatten, gnu::noinline]] static void closest_of_packet(const WideScene& scene, Packet& packet) {
+    const auto visit = [&](WideChild leaf, unsigned rays) { visit_leaf<Kind>(scene, packet, leaf, rays); };
+    const auto alone = [&](WideChild child, std::uint32_t lane) {
+      Nearest nearest = nearest_of(packet, lane);
+      closest_below<Kind>(scene, WideCoherent<Isa>{}, child, WidePacketRay<Isa>{packet, lane}, nearest);
+      set_nearest(packet, lane, nearest);
+    };
+    walk_packet<Isa>(scene.tree, packet, visit, alone);
   }
-  /// What an object of a leaf is called.
-  static std::uint32_t number_of(const float* leaf, std::uint32_t count, std::uint32_t which) {
-    return std::bit_cast<std::uint32_t>(leaf[9 * count + which]);
+
+  static Nearest nearest_of(const Packet& packet, std::uint32_t lane) {
+    return {packet.reach[lane], packet.object[lane]};
+  }
+  static void set_nearest(Packet& packet, std::uint32_t lane, const Nearest& nearest) {
+    packet.reach[lane] = nearest.reach, packet.object[lane] = nearest.object;
+  }
+
+  /// Keep what rays of a packet hit in a leaf.
+  template <class Kind>
+  static void visit_leaf(const WideScene& scene, Packet& packet, WideChild leaf, unsigned rays) {
+    const std::uint32_t count = leaf.count();
+    const float* const rows = scene.triangles.leaf(leaf);
+    const WidePacketTest<Isa> test(rows, count);
+    unsigned others = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (Kind::kOthers && std::isnan(rows[i])) {
+        others |= 1u << i;
+        continue;
+      }
+      const unsigned possible = rays & test.may_hit(packet, i);
+      if (possible == 0) continue;
+      test.hits(packet, i, possible, [&](std::uint32_t lane, float t) {
+        Nearest nearest = nearest_of(packet, lane);
+        nearest.keep(t, WideOthers::as_number(rows[9 * count + i]));
+        set_nearest(packet, lane, nearest);
+      });
+    }
+    for (; others != 0 && rays != 0; rays &= rays - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(rays));
+      set_nearest(
+          packet, lane,
+          nearest_of_others(scene, leaf, others, WidePacketRay<Isa>{packet, lane}, nearest_of(packet, lane)));
+    }
   }
 };
 

@@ -52,6 +52,30 @@ TEST(BvhWide, KernelsAnswerAsExhaustiveSearch) {
   }
 }
 
+/// Many triangles, and polygons of four corners of all kinds, several in a leaf: convex, concave, crossing themselves, with
+/// two corners or all in one place, in planes across every axis and slanted.
+Scene triangles_and_quads() {
+  SceneBuilder builder;
+  nasty::Random random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d p = nasty::uniform_point(random, 5, 6);
+    builder.triangle(p, p + nasty::uniform_point(random, -1, 1), p + nasty::uniform_point(random, -1, 1));
+  }
+  for (int i = 0; i < 90; ++i) {
+    const Vec3d p = nasty::uniform_point(random, -1, 1);
+    Vec3d a = nasty::uniform_point(random, -1, 1), b = nasty::uniform_point(random, -1, 1);
+    if (i % 3 == 0) a[i / 3 % 3] = b[i / 3 % 3] = 0;
+    const double far = i % 5 == 0 ? 0.2 : i % 5 == 1 ? -1 : i % 5 == 2 ? 0 : 1;
+    builder.polygon(std::array{p, p + a, p + (a + b) * far, p + b});
+  }
+  for (int i = 0; i < 4; ++i) nasty::square(builder, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  return std::move(builder).finish();
+}
+
+TEST(BvhWide, TestsPolygonsOfFourCornersAtOnceAsOneByOne) {
+  for (const double scale : nasty::kScales) check_kernels(triangles_and_quads(), scale, 400);
+}
+
 /// Rays of a small picture, row by row, of which some look only so far, some start late and some are no rays at all.
 std::vector<Ray<float>> coherent_rays(double scale, const Vec3d& eye, const Vec3d& at) {
   std::vector<Ray<float>> rays;
