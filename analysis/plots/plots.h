@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/cost_models/verdicts.h"
 #include "analysis/tables/groups.h"
 
 /// Every figure of a report, one file each. Their numbers come from the report's groups.
@@ -28,7 +29,7 @@ struct PlotSet {
 /// Equation (3) against the tests that were counted, with the line of equality.
 PlotSet predicted_measured_plots(const std::vector<Group>& groups);
 /// Times that the best cost model predicts against those that were measured.
-PlotSet model_time_plots(const std::vector<Group>& groups);
+PlotSet model_time_plots(const std::vector<Group>& groups, const Validation& models);
 /// Wrong answers and errors in distance against run time, with the frontier.
 PlotSet error_time_plots(const std::vector<Group>& groups);
 /// Object tests, volume tests and steps per ray, technique by technique.
@@ -44,7 +45,8 @@ PlotSet thread_scaling_plots(const std::vector<Group>& groups);
 PlotSet stiffness_work_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports);
 
 /// All of these, in this order.
-std::vector<PlotSet> all_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports);
+std::vector<PlotSet> all_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports,
+                               const Validation& models);
 
 /// "balls:3/curves, whitted@65, float" as part of a file's name: letters, digits, hyphens and points.
 std::string file_name_of(const std::string& text);

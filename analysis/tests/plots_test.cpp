@@ -121,7 +121,7 @@ TEST(PredictedMeasured, LiesOnTheLineWhereBothAgree) {
 
 TEST(Plots, SayWhyTheyAreNotThere) {
   const report::Report nothing;
-  for (const PlotSet& set : all_plots(groups_of(nothing), {nothing})) {
+  for (const PlotSet& set : all_plots(groups_of(nothing), {nothing}, {})) {
     EXPECT_THAT(set.plots, IsEmpty());
     EXPECT_NE(set.left_out, "") << set.kind;
   }
@@ -138,7 +138,7 @@ TEST(Plots, AreFilesOfTheirOwn) {
   for (report::Measurement& cell : report.measurements) cell.scene = report.scenes[0].id;
   const std::vector<Group> all = groups_of(report);
   std::size_t plots = 0;
-  for (const PlotSet& set : all_plots(all, {report}))
+  for (const PlotSet& set : all_plots(all, {report}, {}))
     for (const Plot& plot : set.plots) {
       ++plots;
       expect_well_formed(svg_file(plot.svg));
