@@ -31,11 +31,6 @@ class PageBuilder {
     }
     models_ = judged(fit_models(groups_, {cost_models().begin(), cost_models().end()}), {});
     plots_ = all_plots(groups_, reports, models_);
-    if (pictures.empty())
-      plots_.push_back({.kind = "Heat maps of work per pixel",
-                        .left_out =
-                            "reports hold no pixels; rayshoot render draws such maps, and rayshoot report "
-                            "--picture FILE shows them here"});
     make_names_unique();
   }
 

@@ -43,6 +43,8 @@ PlotSet object_scaling_plots(const std::vector<Group>& groups);
 PlotSet thread_scaling_plots(const std::vector<Group>& groups);
 /// Tests and steps over the stiffness of scenes, and of the settings of the numerical suite, with exponents.
 PlotSet stiffness_work_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports);
+/// The work of eye rays, pixel by pixel, of the cells that hold a map of it.
+PlotSet work_map_plots(const std::vector<Group>& groups);
 
 /// All of these, in this order.
 std::vector<PlotSet> all_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports,

@@ -119,10 +119,15 @@ std::string file_name_of(const std::string& text) {
 
 std::vector<PlotSet> all_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports,
                                const Validation& models) {
-  return {predicted_measured_plots(groups), model_time_plots(groups, models),
-          error_time_plots(groups),         work_bars_plots(groups),
-          build_trace_plots(groups),        object_scaling_plots(groups),
-          thread_scaling_plots(groups),     stiffness_work_plots(groups, reports)};
+  return {predicted_measured_plots(groups),
+          model_time_plots(groups, models),
+          error_time_plots(groups),
+          work_bars_plots(groups),
+          build_trace_plots(groups),
+          object_scaling_plots(groups),
+          thread_scaling_plots(groups),
+          stiffness_work_plots(groups, reports),
+          work_map_plots(groups)};
 }
 
 }  // namespace rayshoot::analysis
