@@ -86,10 +86,15 @@ bool Validation::holds() const {
                      [](const ModelVerdict& verdict) { return verdict.failures.empty(); });
 }
 
+Validation judged(std::vector<ModelFit> fits, const ModelBounds& bounds) {
+  Validation validation{.fits = std::move(fits)};
+  for (const ModelFit& fit : validation.fits) validation.verdicts.push_back(verdict_of(fit, bounds));
+  return validation;
+}
+
 Validation validate(const std::vector<Group>& groups, const std::vector<const CostModel*>& models,
                     const ModelBounds& bounds) {
-  Validation validation{.fits = fit_models(groups, models)};
-  for (const ModelFit& fit : validation.fits) validation.verdicts.push_back(verdict_of(fit, bounds));
+  Validation validation = judged(fit_models(groups, models), bounds);
   if (validation.verdicts.empty())
     throw report::ReportError(
         "no cell was both counted and timed: there is nothing that a cost model could be held against");

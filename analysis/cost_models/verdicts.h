@@ -39,7 +39,11 @@ struct Validation {
   bool holds() const;
 };
 
-/// All pointers lead into the groups, which must outlive it. Throws ReportError when there is nothing to fit to.
+/// How good fits are.
+Validation judged(std::vector<ModelFit> fits, const ModelBounds& bounds);
+
+/// Models, fitted and judged. All pointers lead into the groups, which must outlive it. Throws ReportError when there is
+/// nothing to fit to.
 Validation validate(const std::vector<Group>& groups, const std::vector<const CostModel*>& models,
                     const ModelBounds& bounds);
 

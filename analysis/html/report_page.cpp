@@ -29,12 +29,8 @@ class PageBuilder {
       auto of_report = groups(report);
       std::move(of_report.begin(), of_report.end(), std::back_inserter(groups_));
     }
-    plots_ = all_plots(groups_, reports);
-    if (pictures.empty())
-      plots_.push_back({.kind = "Heat maps of work per pixel",
-                        .left_out =
-                            "reports hold no pixels; rayshoot render draws such maps, and rayshoot report "
-                            "--picture FILE shows them here"});
+    models_ = judged(fit_models(groups_, {cost_models().begin(), cost_models().end()}), {});
+    plots_ = all_plots(groups_, reports, models_);
     make_names_unique();
   }
 
@@ -67,9 +63,8 @@ class PageBuilder {
 
   /// Verdicts on the cost models; none where nothing was both counted and timed.
   std::vector<Table> model_tables() const {
-    const std::vector<const CostModel*> models(cost_models().begin(), cost_models().end());
-    if (fit_models(groups_, models).empty()) return {};
-    return validation_tables(validate(groups_, models, {}), false);
+    if (models_.fits.empty()) return {};
+    return validation_tables(models_, false);
   }
 
   std::vector<std::string> summary() const {
@@ -124,6 +119,7 @@ class PageBuilder {
   const std::vector<Report>& reports_;
   const std::vector<Picture>& pictures_;
   std::vector<Group> groups_;
+  Validation models_;
   std::vector<PlotSet> plots_;
   std::vector<Section> sections_;
   /// All tables of the page, for the legend.

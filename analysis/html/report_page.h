@@ -20,8 +20,7 @@ struct ReportPage {
   std::vector<std::pair<std::string, std::string>> plots;
 };
 
-/// Summary in words, comparison, plots, tables, provenance, and what was left out; pictures where they are given, since
-/// reports hold no pixels.
+/// Summary in words, comparison, plots, tables, provenance, and what was left out; pictures where they are given.
 ReportPage report_page(const std::vector<report::Report>& reports, const std::vector<Picture>& pictures = {});
 
 }  // namespace rayshoot::analysis

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "analysis/cost_models/verdicts.h"
 #include "analysis/plots/chart.h"
 #include "analysis/plots/plots.h"
 #include "analysis/plots/series.h"
@@ -12,16 +11,15 @@ namespace rayshoot::analysis {
 namespace {
 
 /// The model that errs least in each precision.
-std::map<std::string, const ModelFit*> best_fits(const std::vector<ModelFit>& fits) {
-  std::map<std::string, std::pair<double, const ModelFit*>> best;
-  for (const ModelFit& fit : fits) {
-    const auto error = verdict_of(fit, {}).median_error;
-    if (!error) continue;
-    const auto [found, is_new] = best.emplace(fit.precision, std::pair(*error, &fit));
-    if (!is_new && *error < found->second.first) found->second = {*error, &fit};
+std::map<std::string, const ModelFit*> best_fits(const Validation& models) {
+  std::map<std::string, const ModelVerdict*> best;
+  for (const ModelVerdict& verdict : models.verdicts) {
+    if (!verdict.median_error) continue;
+    const ModelVerdict*& kept = best[verdict.fit->precision];
+    if (!kept || *verdict.median_error < *kept->median_error) kept = &verdict;
   }
   std::map<std::string, const ModelFit*> result;
-  for (const auto& [precision, fit] : best) result[precision] = fit.second;
+  for (const auto& [precision, verdict] : best) result[precision] = verdict->fit;
   return result;
 }
 
@@ -56,11 +54,10 @@ Plot plot_of(const ModelFit& fit, const SeriesStyles& styles) {
 
 }  // namespace
 
-PlotSet model_time_plots(const std::vector<Group>& groups) {
+PlotSet model_time_plots(const std::vector<Group>& groups, const Validation& models) {
   PlotSet set{.kind = "Time that cost models predict"};
   const SeriesStyles styles(groups);
-  const auto fits = fit_models(groups, {cost_models().begin(), cost_models().end()});
-  for (const auto& [precision, fit] : best_fits(fits)) set.plots.push_back(plot_of(*fit, styles));
+  for (const auto& [precision, fit] : best_fits(models)) set.plots.push_back(plot_of(*fit, styles));
   if (set.plots.empty())
     set.left_out = "no scene could be predicted from others: it takes two that were counted and timed";
   return set;

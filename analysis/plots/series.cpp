@@ -117,11 +117,17 @@ std::string file_name_of(const std::string& text) {
   return name.substr(0, 100);
 }
 
-std::vector<PlotSet> all_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports) {
-  return {predicted_measured_plots(groups), model_time_plots(groups),
-          error_time_plots(groups),         work_bars_plots(groups),
-          build_trace_plots(groups),        object_scaling_plots(groups),
-          thread_scaling_plots(groups),     stiffness_work_plots(groups, reports)};
+std::vector<PlotSet> all_plots(const std::vector<Group>& groups, const std::vector<report::Report>& reports,
+                               const Validation& models) {
+  return {predicted_measured_plots(groups),
+          model_time_plots(groups, models),
+          error_time_plots(groups),
+          work_bars_plots(groups),
+          build_trace_plots(groups),
+          object_scaling_plots(groups),
+          thread_scaling_plots(groups),
+          stiffness_work_plots(groups, reports),
+          work_map_plots(groups)};
 }
 
 }  // namespace rayshoot::analysis

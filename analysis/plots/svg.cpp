@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace rayshoot::analysis {
@@ -135,6 +137,25 @@ void Svg::rectangle(Point corner, double width, double height, const std::string
   body_ += fmt::format("<rect{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">{}</rect>\n", class_of(style),
                        coordinate(corner.x), coordinate(corner.y), coordinate(width), coordinate(height),
                        tip_of(tip));
+}
+
+void Svg::tiles(Point corner, double tile_width, double tile_height, std::size_t columns,
+                const std::vector<Colour>& colours) {
+  // One path a colour, in units of tiles; neighbours of one colour are one piece.
+  std::map<Colour, std::string> paths;
+  for (std::size_t first = 0, next; first < colours.size(); first = next) {
+    const std::size_t end_of_row = std::min((first / columns + 1) * columns, colours.size());
+    for (next = first; next < end_of_row && colours[next] == colours[first];) ++next;
+    paths[colours[first]] +=
+        fmt::format("M{} {}h{}v1h-{}z", first % columns, first / columns, next - first, next - first);
+  }
+  body_ +=
+      fmt::format("<g transform=\"translate({} {}) scale({:.6g} {:.6g})\" shape-rendering=\"crispEdges\">\n",
+                  coordinate(corner.x), coordinate(corner.y), tile_width, tile_height);
+  for (const auto& [colour, path] : paths)
+    body_ +=
+        fmt::format("<path fill=\"#{:02x}{:02x}{:02x}\" d=\"{}\"/>\n", colour[0], colour[1], colour[2], path);
+  body_ += "</g>\n";
 }
 
 void Svg::marker(Point center, MarkerStyle style, const std::string& tip, bool large) {

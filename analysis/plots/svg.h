@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/plots/heat_scale.h"
+
 /// A small writer of SVG. Colours are classes, which plot_style() gives a meaning to in light and in dark.
 namespace rayshoot::analysis {
 
@@ -34,6 +36,9 @@ class Svg {
   void rectangle(Point corner, double width, double height, const std::string& style,
                  const std::string& tip = "");
   void marker(Point center, MarkerStyle style, const std::string& tip = "", bool large = false);
+  /// Tiles in rows of so many, each of a colour that is the same in light and in dark.
+  void tiles(Point corner, double tile_width, double tile_height, std::size_t columns,
+             const std::vector<Colour>& colours);
   enum class Anchor { start, middle, end };
   void text(Point at, const std::string& text, Anchor anchor = Anchor::start, const std::string& style = "");
   /// Text that is read from below.

@@ -243,7 +243,10 @@ Column zero_overhead_column() {
 }
 
 Column embree_column() {
-  return {"times_embree", "x Embree", "", "time of embree / time, likewise: above 1 is faster than Embree"};
+  return {.key = "times_embree",
+          .title = "x Embree",
+          .meaning = "time of embree / time, likewise: above 1 is faster than Embree",
+          .more_is_better = true};
 }
 
 const std::vector<ComparisonColumn>& comparison_columns() {

@@ -191,10 +191,14 @@ class Pivot {
       row.push_back({mean.missing == 0 ? mean.value : std::nullopt, ""});
     }
     table_.columns.push_back({"geometric_mean", "mean", "", "geometric mean; none where a cell is missing"});
-    std::stable_sort(table_.rows.begin(), table_.rows.end(), [](const auto& a, const auto& b) {
-      constexpr double none = std::numeric_limits<double>::infinity();
-      return a.back().number.value_or(none) < b.back().number.value_or(none);
-    });
+    // The best first, rows without a mean last.
+    const bool descending = values_.front()->metric->column.more_is_better && !has(options_.rows, kMetric);
+    const auto rank = [&](const auto& row) {
+      const auto& mean = row.back().number;
+      return mean ? (descending ? -*mean : *mean) : std::numeric_limits<double>::infinity();
+    };
+    std::stable_sort(table_.rows.begin(), table_.rows.end(),
+                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
   }
 
   const PivotOptions& options_;

@@ -23,7 +23,7 @@ struct PivotOptions {
   std::vector<std::string> rows{"technique"}, columns{"metric"};
   /// Patterns with * and ? by dimension: only what matches one of them is shown.
   std::map<std::string, std::vector<std::string>> only;
-  /// Add geometric means over the columns, of rows that have a value in all of them, and sort by them.
+  /// Add geometric means over the columns, of rows that have a value in all of them, and sort by them, the best first.
   bool mean = false;
 };
 

@@ -31,6 +31,8 @@ struct Column {
   std::string meaning;
   Style style = Style::number;
   Place place = Place::everywhere;
+  /// Whether the largest values are the best ones, which stand first where rows are sorted by their mean.
+  bool more_is_better = false;
 };
 
 /// A number, shown in the style of its column, or a text, shown in place of a number.

@@ -249,7 +249,8 @@ TEST(Validation, FailsWhereABoundIsNotKept) {
 TEST(ModelTime, ShowsTheModelThatErrsLeast) {
   const Report report = report_by_law(havrans_law);
   const std::vector<Group> all = groups(report);
-  const PlotSet set = model_time_plots(all);
+  const PlotSet set =
+      model_time_plots(all, judged(fit_models(all, {cost_models().begin(), cost_models().end()}), {}));
   ASSERT_THAT(set.plots, SizeIs(1));
   EXPECT_THAT(set.plots[0].title, HasSubstr("havran"));
   std::smatch line;

@@ -92,6 +92,17 @@ TEST(Pivot, TakesGeometricMeansOfRowsThatMissNothing) {
               ThrowsMessage<ReportError>(HasSubstr("metrics have no mean")));
 }
 
+TEST(Pivot, SortsByMeansTheBestFirst) {
+  Report report = two_scenes();
+  report.measurements.back().trace_ns.clear();
+  const auto table =
+      pivot_tables({report}, {.metrics = {"times_embree"}, .columns = {"scene"}, .mean = true}).at(0);
+  const auto names = row_names(table);
+  EXPECT_THAT(std::vector(names.begin(), names.begin() + 4),
+              ElementsAre("zero_overhead", "embree", "bvh_sah", "uniform_grid(density=1)"));
+  EXPECT_FALSE(table.rows.back().back().number) << "what has no mean stands behind";
+}
+
 TEST(Pivot, ShowsOnlyWhatMatches) {
   const auto names = [](std::vector<std::string> patterns) {
     return row_names(

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "analysis/plots/chart.h"
+#include "analysis/plots/heat_scale.h"
 #include "analysis/plots/svg.h"
 #include "analysis/tests/small_report.h"
 
@@ -121,7 +122,7 @@ TEST(PredictedMeasured, LiesOnTheLineWhereBothAgree) {
 
 TEST(Plots, SayWhyTheyAreNotThere) {
   const report::Report nothing;
-  for (const PlotSet& set : all_plots(groups_of(nothing), {nothing})) {
+  for (const PlotSet& set : all_plots(groups_of(nothing), {nothing}, {})) {
     EXPECT_THAT(set.plots, IsEmpty());
     EXPECT_NE(set.left_out, "") << set.kind;
   }
@@ -138,13 +139,40 @@ TEST(Plots, AreFilesOfTheirOwn) {
   for (report::Measurement& cell : report.measurements) cell.scene = report.scenes[0].id;
   const std::vector<Group> all = groups_of(report);
   std::size_t plots = 0;
-  for (const PlotSet& set : all_plots(all, {report}))
+  for (const PlotSet& set : all_plots(all, {report}, {}))
     for (const Plot& plot : set.plots) {
       ++plots;
       expect_well_formed(svg_file(plot.svg));
       EXPECT_TRUE(std::regex_match(plot.name, std::regex("[A-Za-z0-9._-]+"))) << plot.name;
     }
   EXPECT_EQ(plots, 7u);
+}
+
+std::string fill_of(double share) {
+  const Colour colour = heat_colour(share);
+  return fmt::format("fill=\"#{:02x}{:02x}{:02x}\"", colour[0], colour[1], colour[2]);
+}
+
+/// Nine eye rays in tiles of four, two, two and one; maps of the same rays share a scale, which ends at 10.
+TEST(WorkMaps, ShowTestsPerRayOnOneScale) {
+  report::Report report = small_report();
+  report.measurements[5].work_map = report::WorkMap{3, 2, {40, 20, 10, 5}, {8, 0, 0, 0}};  // bvh_sah
+  report.measurements[1].work_map = report::WorkMap{3, 2, {4, 2, 2, 1}, {0, 0, 0, 0}};     // uniform_grid
+  const std::vector<Group> all = groups_of(report);
+  const PlotSet set = work_map_plots(all);
+  ASSERT_THAT(set.plots, SizeIs(3)) << "where no volume was tested there is nothing to see";
+  const auto svg_of = [&](const std::string& begin) -> std::string {
+    for (const Plot& plot : set.plots)
+      if (plot.title.starts_with(begin)) return plot.svg;
+    return "";
+  };
+  for (const Plot& plot : set.plots) expect_well_formed(svg_file(plot.svg));
+  const std::string hierarchy = svg_of("Ray-object tests per eye ray: bvh_sah"),
+                    grid = svg_of("Ray-object tests per eye ray: uniform_grid");
+  EXPECT_THAT(hierarchy, HasSubstr(fill_of(63.5 / 64) + " d=\"M0 0h2v1h-2z\""));
+  EXPECT_THAT(hierarchy, HasSubstr(fill_of(32.5 / 64) + " d=\"M0 1h2v1h-2z\""));
+  EXPECT_THAT(grid, HasSubstr(fill_of(6.5 / 64) + " d=\"M0 0h2v1h-2zM0 1h2v1h-2z\""));
+  EXPECT_THAT(set.plots[0].caption, HasSubstr("Tiles of 2 x 2 eye rays"));
 }
 
 /// Techniques whose time grows with the square root of the objects, and whose memory grows in proportion.

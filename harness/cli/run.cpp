@@ -25,7 +25,7 @@ constexpr const char* kDefaultSuite = "quick";
 /// What is given on the command line; what is not leaves the suite as it is.
 struct Options {
   std::string suite;
-  std::vector<std::string> scenes, techniques, rays, scalars, intersectors;
+  std::vector<std::string> scenes, techniques, rays, scalars, intersectors, work_maps;
   std::optional<int> resolution, threads;
   std::optional<std::string> rules;
   std::optional<std::uint64_t> seed, graded_rays;
@@ -55,6 +55,7 @@ Suite suite_of(const Options& options) {
   replace(suite.rays, options.rays);
   replace(suite.scalars, options.scalars);
   replace(suite.intersectors, options.intersectors);
+  replace(suite.work_maps, options.work_maps);
   if (options.resolution) suite.resolution = options.resolution;
   if (options.rules) suite.rules = options.rules;
   suite.seed = options.seed.value_or(suite.seed);
@@ -172,6 +173,9 @@ void add_run(CLI::App& program, const std::string& command_line, int& status) {
           "Take as many rays as it needs until half the 95 % interval of every technique's M is at most so "
           "large a part of M: 0.01 for one per cent")
       ->check(CLI::Range(1e-4, 1.0));
+  repeatable(command->add_option(
+      "--work-map", options->work_maps,
+      "A technique of this run whose work on eye rays is mapped pixel by pixel: `report` draws it"));
   command->add_option("--seed", options->seed, "Seed of everything random");
   command->add_option("--threads", options->threads, "Threads that trace while timed")
       ->check(CLI::Range(1, 1024));

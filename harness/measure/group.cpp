@@ -13,6 +13,7 @@
 #include "harness/measure/record.h"
 #include "harness/measure/tested_kinds.h"
 #include "harness/measure/timing.h"
+#include "harness/measure/work_map.h"
 #include "harness/verify/oracle.h"
 
 namespace rayshoot {
@@ -148,7 +149,7 @@ class GroupRun {
         if (wanted(*one.choice, rays)) cells.push_back(new_cell(one, rays.set));
     verify(cells, batch, oracle);
     known_rays_.reset();
-    for (Cell<Real>& cell : cells) count_cell(cell, batch);
+    for (Cell<Real>& cell : cells) count_cell(cell, batch, rays);
     if (suite_.graded_rays > 0) grade(cells, batch);
     if (!suite_.counts_only) time(cells, batch);
     compare_with_published(cells, rays.set);
@@ -231,7 +232,7 @@ class GroupRun {
     for (std::size_t i = 0; i < judged.size(); ++i) judged[i]->measurement.verdict = verdicts[i];
   }
 
-  void count_cell(Cell<Real>& cell, const Batch<Real>& batch) {
+  void count_cell(Cell<Real>& cell, const Batch<Real>& batch, const PreparedRays& rays) {
     if (stopped_() || !cell.timeable()) return;
     const auto counting = input_.phases.scope(Phase::count);
     announce("counting " + cell.built->choice->spec);
@@ -249,6 +250,13 @@ class GroupRun {
     measurement.tested_kinds = record(
         tested_kinds(cell.engine(), geometry_, batch, counts.work.object_tests, cell.scratch->local()));
     count_hierarchy(cell, batch);
+    if (is_mapped(suite_, *cell.built->choice, *rays.spec))
+      measurement.work_map = work_map(cell.engine(), batch, rows_of(rays.set), cell.scratch->local());
+  }
+
+  /// Eye rays are as many rows of as many.
+  static std::uint64_t rows_of(const RaySet& set) {
+    return static_cast<std::uint64_t>(std::lround(std::sqrt(set.counts.primary_rays)));
   }
 
   /// What is expected of a hierarchy of volumes, beyond equation (3).

@@ -1,6 +1,7 @@
 #include "harness/plan/plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fnmatch.h>
 
 #include <algorithm>
@@ -85,6 +86,28 @@ std::vector<TechniqueChoice> choose_all_techniques(const Suite& suite, const Pub
   return techniques;
 }
 
+/// Distributions whose sets begin with a square of eye rays.
+const std::vector<std::string> kBeginWithEyeRays{"primary", "whitted"};
+
+bool begins_with_eye_rays(const RaySpec& rays) {
+  return std::find(kBeginWithEyeRays.begin(), kBeginWithEyeRays.end(), rays.distribution->id) !=
+         kBeginWithEyeRays.end();
+}
+
+/// What is to be mapped must run.
+void check_work_maps(const Plan& plan) {
+  if (plan.suite.work_maps.empty()) return;
+  std::vector<std::string> known;
+  for (const TechniqueChoice& technique : plan.techniques)
+    for (const std::string& name : {technique.spec, technique.entry->info.id})
+      append_new(known, name, [](auto& n) { return n; });
+  require_known("technique of this run", plan.suite.work_maps, known);
+  if (std::none_of(plan.rays.begin(), plan.rays.end(), begins_with_eye_rays))
+    throw InputError(
+        fmt::format("work is mapped for eye rays, and this run has none; rays that begin with them: {}",
+                    fmt::join(kBeginWithEyeRays, ", ")));
+}
+
 bool matches(const std::string& pattern, const std::string& text) {
   return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
 }
@@ -134,7 +157,15 @@ Plan make_plan(Suite suite) {
   plan.suite.scenes = std::move(ids);
   plan.rays = resolve_all_rays(plan.suite);
   plan.techniques = choose_all_techniques(plan.suite, plan.published);
+  check_work_maps(plan);
   return plan;
+}
+
+bool is_mapped(const Suite& suite, const TechniqueChoice& technique, const RaySpec& rays) {
+  return begins_with_eye_rays(rays) &&
+         std::any_of(suite.work_maps.begin(), suite.work_maps.end(), [&](const std::string& name) {
+           return name == technique.spec || name == technique.entry->info.id;
+         });
 }
 
 bool is_planned(const TechniqueChoice& technique, const std::string& scene) {

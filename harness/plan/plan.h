@@ -22,6 +22,9 @@ struct Plan {
 /// Whether the technique is to run on the scene of that id.
 bool is_planned(const TechniqueChoice& technique, const std::string& scene_id);
 
+/// Whether the work of a technique on these rays is to be mapped.
+bool is_mapped(const Suite& suite, const TechniqueChoice& technique, const RaySpec& rays);
+
 /// Throws InputError when something in the suite is not known or not accepted.
 Plan make_plan(Suite suite);
 

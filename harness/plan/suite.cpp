@@ -129,6 +129,7 @@ Readers suite_readers(Suite& suite) {
           {"check_tests", number(suite.check_tests, 0, any)},
           {"graded_rays", number(suite.graded_rays, 0, any)},
           {"target_m_error", number(suite.target_m_error, 1e-4, 1)},
+          {"work_maps", specifications(suite.work_maps)},
           {"strict_tests", number(suite.strict_tests, 0, any)}};
 }
 

@@ -53,6 +53,8 @@ struct Suite {
   /// Take as many rays as it needs until half the 95 % interval of every technique's M is so small a part of M; 0 for the
   /// number of rays that was asked for.
   double target_m_error = 0;
+  /// Techniques, as asked for or by id, whose work is mapped pixel by pixel on rays that begin with eye rays.
+  std::vector<std::string> work_maps{};
   /// Ray-object tests to spend on counting the work of a strict optimizer.
   double strict_tests = 1e8;
 };

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "harness/render/colour_map.h"
+#include "analysis/plots/heat_scale.h"
 
 namespace rayshoot {
 
@@ -14,15 +14,6 @@ namespace {
 
 constexpr Rgb kPaper = {24, 24, 24}, kInk = {235, 235, 235};
 constexpr int kTextHeight = 10;  // of the font and the space below it, at scale 1
-
-/// The smallest of 1, 2, 4, 5, 10, 20, ... that is not below the value.
-double round_up(double value) {
-  double decade = 1;
-  while (10 * decade < value) decade *= 10;
-  for (const double step : {1.0, 2.0, 4.0, 5.0, 10.0})
-    if (step * decade >= value) return step * decade;
-  return 10 * decade;
-}
 
 void draw_legend(Image& image, const HeatMap& map, int top, int scale, double end) {
   const int margin = 4 * scale, line = kTextHeight * scale, left = margin, right = map.width - margin;
@@ -40,7 +31,7 @@ void draw_legend(Image& image, const HeatMap& map, int top, int scale, double en
   const int bar = y + margin, below = bar + line;
   const int ticks = map.width > 5 * text_width("0000000", scale) ? 5 : 2;
   for (int x = left; x < right; ++x)
-    image.fill(x, bar, x + 1, below, heat_colour((x - left) / (right - left - 1.0)));
+    image.fill(x, bar, x + 1, below, analysis::heat_colour((x - left) / (right - left - 1.0)));
   for (int tick = 0; tick < ticks; ++tick) {
     const double share = tick / (ticks - 1.0);
     const int x = left + static_cast<int>(std::lround(share * (right - left - 1)));
@@ -55,22 +46,15 @@ void draw_legend(Image& image, const HeatMap& map, int top, int scale, double en
 
 }  // namespace
 
-double end_of_scale(std::vector<double> values) {
-  const auto position =
-      values.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), position, values.end());
-  return round_up(*position);
-}
-
 Image heat_picture(const HeatMap& map) {
   const int widest = std::max(text_width(map.title, 2), text_width(map.subject, 2));
   const int scale = map.width > widest + 16 ? 2 : 1;
   const int legend = scale * (5 * kTextHeight + 14);
-  const double end = end_of_scale(map.values);
+  const double end = analysis::end_of_scale(map.values);
   Image image(map.width, map.height + legend, kPaper);
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x)
-      image.at(x, y) = heat_colour(map.values[static_cast<std::size_t>(y) * map.width + x] / end);
+      image.at(x, y) = analysis::heat_colour(map.values[static_cast<std::size_t>(y) * map.width + x] / end);
   draw_legend(image, map, map.height, scale, end);
   return image;
 }

@@ -17,11 +17,7 @@ struct HeatMap {
 };
 
 /// The picture of a heat map, and below it a legend: titles, colour bar with numbers, mean and largest value.
-/// The colours end at a round number that no more than one pixel in 200 exceeds, so that a few outliers do
-/// not leave the rest in the dark.
+/// The colours and where they end are those of plots (analysis/plots/heat_scale.h).
 Image heat_picture(const HeatMap& map);
-
-/// The number at which the colours end.
-double end_of_scale(std::vector<double> values);
 
 }  // namespace rayshoot

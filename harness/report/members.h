@@ -164,6 +164,14 @@ void members(T& overlap, Visitor& visitor) {
   visitor.required("volume_tests_per_point", overlap.volume_tests_per_point);
 }
 
+template <Some<WorkMap> T, class Visitor>
+void members(T& map, Visitor& visitor) {
+  visitor.required("resolution", map.resolution);
+  visitor.required("tile", map.tile);
+  visitor.required("object_tests", map.object_tests);
+  visitor.required("volume_tests", map.volume_tests);
+}
+
 template <Some<Efficiency> T, class Visitor>
 void members(T& efficiency, Visitor& visitor) {
   visitor.required("m", efficiency.m);
@@ -231,6 +239,7 @@ void members(T& measurement, Visitor& visitor) {
   visitor.optional("sampled_prediction", measurement.sampled_prediction);
   visitor.optional("end_point_overlap", measurement.end_point_overlap);
   visitor.optional("cells_deviation", measurement.cells_deviation);
+  visitor.optional("work_map", measurement.work_map);
   visitor.optional("efficiency", measurement.efficiency);
   visitor.optional("errors", measurement.errors);
   visitor.optional("build_ns", measurement.build_ns);

@@ -224,6 +224,19 @@ std::set<std::string> ids(const std::vector<Listed>& list) {
   return result;
 }
 
+/// A map has a sum for every tile.
+void check_map(const WorkMap& map, const std::string& path) {
+  if (map.resolution < 1 || map.resolution > kMostMapRows)
+    fail(path + ".resolution", fmt::format("expected 1 to {}, found {}", kMostMapRows, map.resolution));
+  if (map.tile < 1 || map.tile > map.resolution)
+    fail(path + ".tile", fmt::format("expected 1 to {}, the resolution, found {}", map.resolution, map.tile));
+  const std::uint64_t tiles = map.columns() * map.columns();
+  for (const auto& [name, sums] :
+       {std::pair(".object_tests", &map.object_tests), std::pair(".volume_tests", &map.volume_tests)})
+    if (sums->size() != tiles)
+      fail(path + name, fmt::format("expected {} numbers, one a tile, found {}", tiles, sums->size()));
+}
+
 void check_measurements(const Report& report) {
   const auto scenes = ids(report.scenes), ray_sets = ids(report.ray_sets);
   for (std::size_t i = 0; i < report.measurements.size(); ++i) {
@@ -235,6 +248,7 @@ void check_measurements(const Report& report) {
       fail(path + ".rays", fmt::format("no ray set '{}' in ray_sets", measurement.rays));
     if (measurement.verdict.status == Status::wrong && !measurement.trace_ns.empty())
       fail(path + ".trace_ns", "a wrong answer has no time");
+    if (measurement.work_map) check_map(*measurement.work_map, path + ".work_map");
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -143,6 +144,24 @@ struct EndPointOverlap {
   double object_tests_per_point = 0, volume_tests_per_point = 0;
 };
 
+/// Work of the eye rays that a ray set begins with, summed over square tiles of their pixels, in rows from the upper left.
+struct WorkMap {
+  /// Rows and columns of eye rays, and of those of a tile; tiles at the right and lower edge may have fewer.
+  std::uint64_t resolution = 1, tile = 1;
+  std::vector<std::uint64_t> object_tests, volume_tests;
+
+  /// Rows and columns of tiles.
+  std::uint64_t columns() const { return (resolution + tile - 1) / tile; }
+  /// Eye rays of a tile.
+  std::uint64_t rays(std::uint64_t index) const {
+    const auto side = [&](std::uint64_t place) { return std::min(tile, resolution - place * tile); };
+    return side(index % columns()) * side(index / columns());
+  }
+};
+
+/// Rows of eye rays that a map may have.
+inline constexpr std::uint64_t kMostMapRows = 16384;
+
 /// Revelles' M, equation (21), with 95 % confidence intervals.
 struct Efficiency {
   double m = 0;
@@ -221,6 +240,8 @@ struct Measurement {
   std::optional<EndPointOverlap> end_point_overlap;
   /// Standard deviation, over the rays, of the leaf cells visited: leaf-count variability (Aila, Karras & Laine 2013).
   std::optional<double> cells_deviation;
+  /// Where it was asked for.
+  std::optional<WorkMap> work_map;
   std::optional<Efficiency> efficiency;
   std::optional<Errors> errors;
   /// Wall time of each build and of each pass over the whole batch, in nanoseconds.

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "accel/core/registry.h"
-#include "harness/render/colour_map.h"
+#include "analysis/plots/heat_scale.h"
 #include "harness/render/heat_map.h"
 #include "scenes/core/scene_builder.h"
 #include "scenes/io/load_scene.h"
@@ -16,6 +16,7 @@
 namespace rayshoot {
 namespace {
 
+using analysis::end_of_scale, analysis::heat_colour;
 using testing::HasSubstr;
 
 constexpr double kGrey = 0.5;

@@ -86,6 +86,26 @@ TEST_F(ReportCommands, ReportWritesAPageAndItsPlots) {
                     Contains("r-scaling-time-tetra-as-curves-whitted-17-float.svg")));
 }
 
+TEST_F(ReportCommands, WorkMapsAreTakenWhereAskedForAndDrawn) {
+  const std::vector<std::string> run{"run",         "--scene", "tetra:1",     "--rays",       "primary@9",
+                                     "--technique", "bvh_sah", "--technique", "octree_samet", "--counts-only",
+                                     "-o",          "r.json",  "--work-map"};
+  const auto with = [&](const std::string& technique) {
+    std::vector<std::string> arguments = run;
+    arguments.push_back(technique);
+    return program(arguments);
+  };
+  const Outcome unknown = with("bvh_sa");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.errors, HasSubstr("did you mean 'bvh_sah'?"));
+  ASSERT_EQ(with("bvh_sah").status, 0);
+  ASSERT_EQ(program({"report", "r.json"}).status, 0);
+  EXPECT_THAT(files_in(folder_.path()),
+              AllOf(Contains("r-work-map-objects-bvh_sah-tetra-1-curves-primary-9-float.svg"),
+                    Contains("r-work-map-volumes-bvh_sah-tetra-1-curves-primary-9-float.svg"),
+                    Not(Contains(HasSubstr("octree_samet")))));
+}
+
 TEST_F(ReportCommands, ReportLeavesNothingHalfWritten) {
   write("r.json");
   std::filesystem::create_directory(folder_.path() / "page-predicted-measured-objects.svg");

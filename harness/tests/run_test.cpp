@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <numeric>
 #include <set>
 #include <thread>
 
@@ -169,6 +170,47 @@ TEST_F(RunTest, CountsOnlyTakesNoTime) {
   EXPECT_EQ(m.verdict.status, Status::ok);
   EXPECT_TRUE(m.work);
   EXPECT_THAT(m.trace_ns, IsEmpty());
+}
+
+/// 130 rows of eye rays are 44 rows of tiles, the last of which has one.
+TEST_F(RunTest, AMapHoldsTheWorkOfEyeRaysTileByTile) {
+  for (const char* id : {"exhaustive", "bvh_sah"}) plan_.techniques.push_back(choose_technique(id));
+  plan_.rays = {resolve_rays("primary@130"), resolve_rays("whitted@130"), resolve_rays("chords(rays=9)")};
+  plan_.suite.work_maps = {"exhaustive"};
+  plan_.suite.counts_only = true;
+  std::size_t maps = 0;
+  for (const report::Measurement& m : run().measurements) {
+    const bool mapped = m.technique == "exhaustive" && !m.rays.ends_with("chords(rays=9)");
+    ASSERT_EQ(m.work_map.has_value(), mapped) << m.technique << " " << m.rays;
+    if (!m.work_map) continue;
+    ++maps;
+    ASSERT_EQ(m.work_map->columns(), 44u);
+    ASSERT_THAT(m.work_map->object_tests, SizeIs(44 * 44));
+    std::uint64_t rays = 0;
+    for (std::size_t tile = 0; tile < 44 * 44; ++tile) {
+      EXPECT_EQ(m.work_map->object_tests[tile], 11 * m.work_map->rays(tile)) << tile;
+      rays += m.work_map->rays(tile);
+    }
+    EXPECT_EQ(rays, 130u * 130);
+  }
+  EXPECT_EQ(maps, 2u);
+}
+
+TEST_F(RunTest, AMapShowsWhereTheWorkIs) {
+  plan_.techniques = {choose_technique("bvh_sah(max_objects=2)")};
+  plan_.rays = {resolve_rays("primary@9")};
+  plan_.suite.work_maps = {"bvh_sah"};
+  const report::Report report = run();
+  const report::Measurement& m = report.measurements.at(0);
+  ASSERT_TRUE(m.work_map && m.work);
+  const auto sum = [](const auto& sums) {
+    return std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
+  };
+  EXPECT_EQ(sum(m.work_map->object_tests), m.work->object_tests);
+  EXPECT_EQ(sum(m.work_map->volume_tests), m.work->volume_tests);
+  const auto [least, most] =
+      std::minmax_element(m.work_map->volume_tests.begin(), m.work_map->volume_tests.end());
+  EXPECT_GT(*most, *least);
 }
 
 TEST_F(RunTest, WhatIsLeftOutIsRecordedWithItsReason) {

@@ -24,7 +24,7 @@ TEST(SuiteTest, ReadsEverythingThatMayBeSet) {
      "exclude": [{"technique": "exh*", "objects_over": 100, "why": "slow"}],
      "seed": 7, "resolution": 33, "rules": "haines", "tessellation": 4, "threads": 2, "thread_scaling": [1, 2],
      "counts_only": true, "repetitions": 21, "build_seconds": 0.5, "trace_seconds": 3, "check_tests": 1e6,
-     "strict_tests": 1e5} /* another */)",
+     "strict_tests": 1e5, "work_maps": "exhaustive"} /* another */)",
                                   "test");
   EXPECT_THAT(suite.scenes, ElementsAre("balls:2"));
   EXPECT_THAT(suite.rays, ElementsAre("primary"));
@@ -46,6 +46,7 @@ TEST(SuiteTest, ReadsEverythingThatMayBeSet) {
   EXPECT_EQ(suite.trace_seconds, 3);
   EXPECT_EQ(suite.check_tests, 1e6);
   EXPECT_EQ(suite.strict_tests, 1e5);
+  EXPECT_THAT(suite.work_maps, ElementsAre("exhaustive"));
 }
 
 TEST(SuiteTest, ListsOfValuesMeanEveryCombination) {
@@ -98,6 +99,17 @@ TEST(SuiteTest, RefusesWhatIsNotJson) {
 TEST(SuiteTest, RefusesSettingsThatNoRaysTake) {
   EXPECT_THAT(refusal(R"({"scenes": ["balls"], "rays": ["chords"], "rules": "haines"})"),
               HasSubstr("no ray distribution of this run has a parameter 'rules'"));
+}
+
+TEST(SuiteTest, RefusesMapsOfWhatDoesNotRun) {
+  EXPECT_THAT(
+      refusal(
+          R"({"scenes": ["balls"], "rays": ["primary"], "techniques": ["bvh_sah"], "work_maps": ["bvh_sa"]})"),
+      HasSubstr("unknown technique of this run 'bvh_sa'; did you mean 'bvh_sah'?"));
+  EXPECT_THAT(
+      refusal(
+          R"({"scenes": ["balls"], "rays": ["chords"], "techniques": ["bvh_sah"], "work_maps": ["bvh_sah"]})"),
+      HasSubstr("rays that begin with them: primary, whitted"));
 }
 
 TEST(SuiteTest, BuiltInSuitesAreAccepted) {

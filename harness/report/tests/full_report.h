@@ -72,6 +72,7 @@ inline report::Report full_report() {
        .sampled_prediction = report::SampledPrediction{7, {4, 2}, {3.5, 1.75}, {3.25, 1.5}},
        .end_point_overlap = report::EndPointOverlap{1000, 0.125, 0.75},
        .cells_deviation = 1.375,
+       .work_map = report::WorkMap{3, 2, {40, 20, 10, 5}, {9, 8, 7, 6}},
        .efficiency = report::Efficiency{0.036, {0.03, 0.042}, 0.14, {0.13, 0.15}},
        .errors =
            report::Errors{

@@ -171,6 +171,15 @@ TEST(Report, NamesThePlaceOfAFaultAndWhatWasExpected) {
       {with("/measurements/0/rays", "x"), "measurements[0].rays: no ray set 'x' in ray_sets"},
       {with("/measurements/0/verdict/status", "wrong"),
        "measurements[0].trace_ns: a wrong answer has no time"},
+      {with("/measurements/0/work_map/resolution", 16385),
+       "measurements[0].work_map.resolution: expected 1 to 16384, found 16385"},
+      {with("/measurements/0/work_map/tile", 0),
+       "measurements[0].work_map.tile: expected 1 to 3, the resolution, found 0"},
+      {with("/measurements/0/work_map/tile", 4), "the resolution, found 4"},
+      {with("/measurements/0/work_map/tile", 1),
+       "measurements[0].work_map.object_tests: expected 9 numbers, one a tile, found 4"},
+      {with("/measurements/0/work_map/volume_tests", {1, 2, 3}),
+       "measurements[0].work_map.volume_tests: expected 4 numbers, one a tile, found 3"},
   };
   for (const auto& [text, message] : faults) EXPECT_THAT(objection(text), HasSubstr(message));
 }
@@ -226,7 +235,8 @@ TEST(Join, PutsRunsOfOtherScenesTogether) {
   EXPECT_FALSE(whole.run.complete);
   EXPECT_EQ(whole.scenes.size(), 2u);
   EXPECT_EQ(whole.ray_sets.size(), 2u);
-  EXPECT_EQ(whole.measurements.size(), 2u);
+  ASSERT_EQ(whole.measurements.size(), 2u);
+  EXPECT_TRUE(whole.measurements[0].work_map && whole.measurements[1].work_map);
   EXPECT_EQ(whole.left_out.size(), 2u);
   EXPECT_EQ(whole.claims.size(), 2u);
   EXPECT_EQ(whole.gradings.size(), 2u);

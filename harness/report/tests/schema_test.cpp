@@ -86,6 +86,7 @@ TEST(Schema, HasTheMembersOfTheCode) {
                                                    {"predicted", cell["predicted"]},
                                                    {"sampled_prediction", cell["sampled_prediction"]},
                                                    {"end_point_overlap", cell["end_point_overlap"]},
+                                                   {"work_map", cell["work_map"]},
                                                    {"efficiency", cell["efficiency"]},
                                                    {"thread_times", cell["threads"][0]},
                                                    {"left_out_cell", report["left_out"][0]},
