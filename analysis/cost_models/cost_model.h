@@ -43,6 +43,8 @@ struct ExpectedTests {
   /// Heading of a column of errors.
   std::string heading;
   std::optional<report::Predicted> (*of)(const report::Measurement& measurement) = nullptr;
+  /// Whether they come from a sample of the rays: then they can be held against the rays that are not in it.
+  bool of_sample = false;
 };
 
 /// A formula for the time of a ray: a sum of terms, each a number that the report holds times a constant of 0 or more
