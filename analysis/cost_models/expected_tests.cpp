@@ -51,6 +51,9 @@ Table verdict_table(const std::vector<CellOfTests>& cells, const std::vector<con
                   {"right", "within", "5 %",
                    "cells in which the errors of volume tests and of object tests are both at most 5 %",
                    Style::whole},
+                  {"right_elsewhere", "others", "5 %",
+                   "the same where what a sample of the rays led to expect is held against the other rays",
+                   Style::whole},
                   {"median_volumes_percent", "volumes", "% median",
                    "median and largest relative error of volume tests, without sign"},
                   {"max_volumes_percent", "volumes", "% max", ""},
@@ -63,9 +66,10 @@ Table verdict_table(const std::vector<CellOfTests>& cells, const std::vector<con
     for (const std::string& name : rows) {
       const TestsVerdict verdict = verdict_of_tests(cells, i, name);
       table.rows.push_back({words(models[i]->id), words(name.empty() ? "all" : name), whole(verdict.cells),
-                            whole(verdict.right), percent(verdict.median_volumes),
-                            percent(verdict.max_volumes), percent(verdict.median_objects),
-                            percent(verdict.max_objects)});
+                            whole(verdict.right),
+                            verdict.right_elsewhere ? whole(*verdict.right_elsewhere) : Cell{},
+                            percent(verdict.median_volumes), percent(verdict.max_volumes),
+                            percent(verdict.median_objects), percent(verdict.max_objects)});
     }
     table.notes.push_back(
         fmt::format("{} ({}): assumes that {}.", models[i]->id, models[i]->title, models[i]->assumptions));
@@ -123,6 +127,28 @@ Table cells_table(const std::vector<CellOfTests>& cells, const std::vector<const
   return table;
 }
 
+/// What was counted on the rays outside of the sample: for those inside, `ordered` is what was counted.
+std::optional<report::Predicted> counted_elsewhere(const report::Measurement& measurement) {
+  const auto& sampled = measurement.sampled_prediction;
+  const auto rays = static_cast<double>(measurement.work->rays);
+  if (!sampled || !(static_cast<double>(sampled->sampled_rays) < rays)) return std::nullopt;
+  const double share = static_cast<double>(sampled->sampled_rays) / rays;
+  const auto rest = [&](std::uint64_t all, double inside) {
+    return (static_cast<double>(all) / rays - share * inside) / (1 - share);
+  };
+  return report::Predicted{rest(measurement.work->object_tests, sampled->ordered.object_tests_per_ray),
+                           rest(measurement.work->volume_tests, sampled->ordered.volume_tests_per_ray)};
+}
+
+std::optional<double> error_elsewhere(const ExpectedTests& tests, const report::Measurement& measurement) {
+  const auto expected = tests.of(measurement), counted = counted_elsewhere(measurement);
+  if (!tests.of_sample || !expected || !counted) return std::nullopt;
+  const auto volumes = relative_error(expected->volume_tests_per_ray, counted->volume_tests_per_ray),
+             objects = relative_error(expected->object_tests_per_ray, counted->object_tests_per_ray);
+  if (!volumes || !objects) return std::nullopt;
+  return std::max(std::abs(*volumes), std::abs(*objects));
+}
+
 }  // namespace
 
 std::vector<CellOfTests> cells_of_tests(const std::vector<Group>& groups,
@@ -132,8 +158,9 @@ std::vector<CellOfTests> cells_of_tests(const std::vector<Group>& groups,
     for (const Entry& entry : group.entries) {
       const report::Measurement& measurement = *entry.measurement;
       if (measurement.verdict.status != report::Status::ok || !measurement.work) continue;
-      CellOfTests cell{&group, &entry, {}, {}};
+      CellOfTests cell{&group, &entry, {}, {}, {}};
       for (const CostModel* model : with_tests(models)) {
+        cell.errors_elsewhere.push_back(error_elsewhere(*model->tests, measurement));
         const auto tests = model->tests->of(measurement);
         const auto error = [&](double report::Predicted::*expected, std::uint64_t report::Work::*count) {
           return tests ? relative_error((*tests).*expected, per_ray(measurement.work, count)) : std::nullopt;
@@ -162,6 +189,8 @@ TestsVerdict verdict_of_tests(const std::vector<CellOfTests>& cells, std::size_t
     object_errors.push_back(std::abs(*objects));
     ++verdict.cells;
     verdict.right += std::abs(*volumes) <= kRightWithin && std::abs(*objects) <= kRightWithin;
+    if (const auto& elsewhere = cell.errors_elsewhere[model])
+      verdict.right_elsewhere = verdict.right_elsewhere.value_or(0) + (*elsewhere <= kRightWithin);
   }
   verdict.median_volumes = median_of(volume_errors);
   verdict.max_volumes = max_of(volume_errors);

@@ -19,6 +19,8 @@ struct CellOfTests {
   const Group* group = nullptr;
   const Entry* entry = nullptr;
   std::vector<std::optional<double>> volume_errors, object_errors;
+  /// The larger of both, without sign, where what a sample of the rays led to expect is held against the other rays.
+  std::vector<std::optional<double>> errors_elsewhere;
 };
 
 /// The right cells that were counted and of which a model speaks; the models are those with `tests`.
@@ -30,6 +32,8 @@ struct TestsVerdict {
   std::size_t cells = 0;
   /// Of these, cells in which both errors are at most 5 %.
   std::size_t right = 0;
+  /// The same of the rays that are not in the sample; absent where the model needs none.
+  std::optional<std::size_t> right_elsewhere;
   std::optional<double> median_volumes, max_volumes, median_objects, max_objects;
 };
 

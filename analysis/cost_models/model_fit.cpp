@@ -1,9 +1,12 @@
 #include "analysis/cost_models/model_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <set>
 
+#include "analysis/cost_models/pooled_prices.h"
 #include "analysis/statistics/nnls.h"
 #include "analysis/tables/comparison.h"
 
@@ -122,6 +125,60 @@ void fit_together(ModelFit& fit, const std::vector<Row*>& rows) {
   }
 }
 
+PooledCell pooled_cell(const Row& row, const Pooling& pooling) {
+  return {row.technique, row.terms,
+          pooling.amounts ? pooling.amounts(*row.cell.group, *row.cell.entry) : std::vector<double>{}};
+}
+
+std::vector<double> fitted(const std::vector<Row*>& rows, const PooledPrices& prices, const Pooling& pooling,
+                           const std::string& without_scene) {
+  std::vector<PricedSum> sums;
+  std::vector<double> times;
+  for (const Row* row : rows) {
+    if (row->cell.group->scene_id == without_scene) continue;
+    sums.push_back(prices.sum_of(pooled_cell(*row, pooling)));
+    times.push_back(row->cell.measured);
+  }
+  return fit_priced_sums(sums, times, prices.beliefs(), pooling.robust);
+}
+
+/// Those of all techniques, in each circumstance by itself as well, and those that a technique has of its own.
+void keep_constants(ModelFit& fit, const PooledPrices& prices, const std::vector<double>& unknowns) {
+  const auto& names = fit.model->pooling->circumstances;
+  std::vector<double> circumstances(names.size(), 0);
+  const auto keep = [&](const std::string& name, const std::string& technique) {
+    for (const double constant : prices.constants(technique, circumstances, unknowns))
+      fit.constants[name].emplace_back(constant);
+  };
+  keep(kAllTechniques, "");
+  for (const std::string& technique : prices.techniques()) {
+    keep(technique, technique);
+    for (std::size_t i = 0; i < fit.model->constants.size(); ++i)
+      if (!fit.model->constants[i].of_technique) fit.constants[technique][i].reset();
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    circumstances[i] = 1;
+    keep(fmt::format("{}, {}", kAllTechniques, names[i]), "");
+    circumstances[i] = 0;
+  }
+}
+
+/// Fit and predict rows of a pooled model. It says something of every cell: what few scenes have is priced as it was guessed.
+void fit_pooled(ModelFit& fit, const std::vector<Row*>& rows) {
+  const Pooling& pooling = *fit.model->pooling;
+  std::set<std::string> techniques, scenes;
+  for (const Row* row : rows) techniques.insert(row->technique), scenes.insert(row->cell.group->scene_id);
+  const PooledPrices prices(*fit.model, std::move(techniques));
+  keep_constants(fit, prices, fitted(rows, prices, pooling, ""));
+  if (scenes.size() < 2) return;
+  for (const std::string& scene : scenes) {
+    const auto unknowns = fitted(rows, prices, pooling, scene);
+    for (Row* row : rows)
+      if (row->cell.group->scene_id == scene)
+        row->cell.predicted = value_of(prices.sum_of(pooled_cell(*row, pooling)), unknowns);
+  }
+}
+
 /// Whether techniques have nothing in common: then each is a small system of its own.
 bool is_separate(const CostModel& model) {
   return std::all_of(model.constants.begin(), model.constants.end(),
@@ -143,7 +200,8 @@ ModelFit fit_model(const CostModel& model, const std::string& precision,
     }
   std::map<std::string, std::vector<Row*>> together;
   for (Row& row : rows) together[is_separate(model) ? row.technique : kAllTechniques].push_back(&row);
-  for (const auto& [name, members] : together) fit_together(fit, members);
+  for (const auto& [name, members] : together)
+    model.pooling ? fit_pooled(fit, members) : fit_together(fit, members);
   for (const Row& row : rows) {
     fit.silent += !row.cell.predicted;
     fit.cells.push_back(row.cell);

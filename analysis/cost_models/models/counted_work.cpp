@@ -11,41 +11,22 @@
 //            other scene.
 // Weak when  Structures do not fit the caches. Exhaustive search is far from it: a test in a long loop costs a
 //            fraction of one at the end of a search.
-#include "analysis/cost_models/cost_model.h"
+#include "analysis/cost_models/tested_objects.h"
 
 namespace rayshoot {
 
 namespace {
 
-using analysis::counted, report::Work;
+using analysis::counted, analysis::incoherent, report::Work;
 
 constexpr double kPolygon = 1, kVertex = 0.04, kSphere = 4.0 / 3, kCone = 5;
-/// Vertices of a polygon where nobody counted.
-constexpr double kVertices = 4;
-
-/// The kinds of the objects of a scene, for reports that do not tell those of the objects tested.
-report::TestedKinds kinds_of(const report::Scene& scene) {
-  const auto share = [&](const char* kind) {
-    const auto found = scene.counts.find(kind);
-    return found == scene.counts.end()
-               ? 0
-               : static_cast<double>(found->second) / static_cast<double>(scene.objects);
-  };
-  return {share("triangle"), share("polygon"), share("sphere"), share("cone"), kVertices * share("polygon")};
-}
 
 /// Object tests, in triangles.
 double priced_tests(const report::Scene& scene, const analysis::Entry& entry) {
-  const report::TestedKinds kinds = entry.measurement->tested_kinds.value_or(kinds_of(scene));
+  const report::TestedKinds kinds = analysis::tested_kinds(scene, entry);
   return counted(entry, &Work::object_tests) *
          (kinds.triangles + kPolygon * kinds.polygons + kVertex * kinds.polygon_vertices +
           kSphere * kinds.spheres + kCone * kinds.cones);
-}
-
-/// Whether neighbours of a ray set have nothing to do with each other.
-bool incoherent(const analysis::Group& group) {
-  const std::string distribution = group.rays ? group.rays->distribution : "";
-  return distribution == "diffuse" || distribution == "chords" || distribution == "points";
 }
 
 std::optional<std::vector<double>> terms(const analysis::Group& group, const analysis::Entry& entry) {

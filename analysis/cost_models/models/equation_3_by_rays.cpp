@@ -28,7 +28,7 @@ const analysis::CostModel& cost_model_equation_3_by_rays() {
       .assumptions = "nothing occludes",
       .constants = {{"B"}, {"I"}},
       .terms = [](const Group&, const Entry& entry) { return test_terms(expected(*entry.measurement)); },
-      .tests = ExpectedTests{"rays", expected}};
+      .tests = ExpectedTests{"rays", expected, true}};
   return model;
 }
 

@@ -30,7 +30,7 @@ const analysis::CostModel& cost_model_equation_3_occluded() {
           "visited in no order of distance; rays that ask for any hit end at the first that is found",
       .constants = {{"B"}, {"I"}},
       .terms = [](const Group&, const Entry& entry) { return test_terms(expected(*entry.measurement)); },
-      .tests = ExpectedTests{"occluded", expected}};
+      .tests = ExpectedTests{"occluded", expected, true}};
   return model;
 }
 

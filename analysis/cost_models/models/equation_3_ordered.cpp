@@ -28,7 +28,7 @@ const analysis::CostModel& cost_model_equation_3_ordered() {
       .assumptions = "the sampled rays, of which all hits are known, are like the others",
       .constants = {{"B"}, {"I"}},
       .terms = [](const Group&, const Entry& entry) { return test_terms(expected(*entry.measurement)); },
-      .tests = ExpectedTests{"ordered", expected}};
+      .tests = ExpectedTests{"ordered", expected, true}};
   return model;
 }
 
