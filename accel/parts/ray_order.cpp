@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace rayshoot {
@@ -31,20 +32,37 @@ std::uint32_t morton(const Vec3<float>& position, int bits) {
          spread(cell(position.z, bits)) << 2;
 }
 
+/// Where a ray is first inside of a box; none where it never is.
+std::optional<Vec3<float>> first_inside(const Ray<float>& ray, const Box<float>& bounds) {
+  const Vec3<float>& from = ray.origin;
+  if (bounds.contains({from, from})) return from;
+  const Interval<float> inside = interval_inside(bounds, ray);
+  const float enter = std::max(inside.enter, ray.t_min);
+  if (enter <= std::min(inside.exit, ray.t_max)) return ray.at(enter);
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::span<const std::uint32_t> RayOrder::sorted(std::span<const Ray<float>> rays, const Box<float>& bounds) {
-  keyed_.resize(rays.size()), other_.resize(rays.size()), order_.resize(rays.size());
+  keyed_.clear(), order_.resize(rays.size());
   const Vec3<float> extent = bounds.extent();
   Vec3<float> scale;
   for (int axis = 0; axis < 3; ++axis) scale[axis] = extent[axis] > 0 ? 1 / extent[axis] : 0;
+  std::size_t last = rays.size();
   for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-    Vec3<float> from = rays[ray].origin - bounds.lo, to = rays[ray].direction;
+    const auto begins = first_inside(rays[ray], bounds);
+    if (!begins) {
+      order_[--last] = static_cast<std::uint32_t>(ray);
+      continue;
+    }
+    Vec3<float> from = *begins - bounds.lo, to = rays[ray].direction;
     const float half = 0.5f / max_abs(to);
     for (int axis = 0; axis < 3; ++axis) from[axis] *= scale[axis], to[axis] = to[axis] * half + 0.5f;
     const std::uint32_t key = morton(from, kOriginBits) << 3 * kDirectionBits | morton(to, kDirectionBits);
-    keyed_[ray] = {key, static_cast<std::uint32_t>(ray)};
+    keyed_.push_back({key, static_cast<std::uint32_t>(ray)});
   }
+  other_.resize(keyed_.size());
   for (int bit = 0; bit < kBits; bit += kBitsAtOnce) sort_by(bit);
   std::transform(keyed_.begin(), keyed_.end(), order_.begin(), [](const Keyed& ray) { return ray.ray; });
   return order_;

@@ -11,8 +11,8 @@ namespace rayshoot {
 /// next finds in the cache. Keeps its memory from batch to batch.
 class RayOrder {
  public:
-  /// The numbers of the rays, sorted by the cell of `bounds` that they start in along a Morton curve, and there by the
-  /// direction that they take. Rays may be anything, also no numbers.
+  /// The numbers of the rays, sorted by the cell of `bounds` that they start in or come into, along a Morton curve, and there by
+  /// the direction that they take; behind them those that miss the bounds. Rays may be anything, also no numbers.
   std::span<const std::uint32_t> sorted(std::span<const Ray<float>> rays, const Box<float>& bounds);
 
  private:

@@ -1,4 +1,5 @@
 // What makes bvh_wide that technique.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -192,6 +193,20 @@ TEST(RayOrder, IsAPermutationInWhichNeighboursAreAlike) {
   };
   EXPECT_LT(3 * mean_step([&](std::uint32_t i) { return sorted[i]; }),
             mean_step([](std::uint32_t i) { return i; }));
+}
+
+TEST(RayOrder, LeavesRaysThatMissToTheEndAndSortsOthersByWhereTheyComeIn) {
+  // From afar through the middle of the unit cube's cells, and past it.
+  std::vector<Ray<float>> rays;
+  for (const float x : {0.9f, 7.0f, 0.1f, -3.0f})
+    rays.push_back({.origin = {x, 0.1f, -50}, .direction = {0, 0, 1}});
+  for (const float x : {0.9f, 0.1f}) rays.push_back({.origin = {x - 50, 0.1f, 50}, .direction = {1, 0, -1}});
+  rays.push_back({.origin = {0.5f, 0.1f, -50}, .direction = {0, 0, 1}, .t_max = 49});
+  RayOrder order;
+  const auto sorted = order.sorted(rays, {{0, 0, 0}, {1, 1, 1}});
+  const std::vector<std::uint32_t> first(sorted.begin(), sorted.begin() + 4);
+  EXPECT_THAT(first, ::testing::ElementsAre(2, 5, 0, 4));
+  EXPECT_THAT(std::vector(sorted.begin() + 4, sorted.end()), ::testing::UnorderedElementsAre(1, 3, 6));
 }
 
 TEST(BvhWide, TakesFewerStepsThanABinaryTree) {

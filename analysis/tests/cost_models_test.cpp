@@ -5,11 +5,11 @@
 #include <functional>
 #include <regex>
 
-#include "analysis/cost_models/expected_tests.h"
 #include "analysis/cost_models/far_cells.h"
 #include "analysis/cost_models/verdicts.h"
 #include "analysis/plots/plots.h"
 #include "analysis/tests/find_cell.h"
+#include "analysis/tests/report_by_law.h"
 
 namespace rayshoot::analysis {
 namespace {
@@ -22,50 +22,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Optional;
 using ::testing::SizeIs;
-
-const CostModel& model(const std::string& id) {
-  for (const CostModel* one : cost_models())
-    if (one->id == id) return *one;
-  throw std::out_of_range(id);
-}
-
-/// Six scenes, five techniques and work that differs in all of them, and times that follow a law.
-template <class Nanoseconds>
-Report report_by_law(const Nanoseconds& ns_per_ray) {
-  Report report;
-  for (std::uint64_t s = 0; s < 6; ++s) {
-    const std::string scene = fmt::format("scene{}", s), rays = scene + "/rays";
-    report.scenes.push_back(
-        {.id = scene, .objects = 100, .counts = {{"triangle", 10 * s}, {"sphere", 100 - 10 * s}}});
-    report.ray_sets.push_back(
-        {.id = rays, .scene = scene, .distribution = s % 2 ? "chords" : "whitted", .rays = 100});
-    for (std::uint64_t t = 0; t < 5; ++t) {
-      Measurement cell{
-          .scene = scene, .rays = rays, .technique = fmt::format("technique{}", t), .scalar = "float"};
-      cell.work = report::Work{100,
-                               300 + 170 * ((3 * s + t) % 7),
-                               250,
-                               t < 2 ? 400 + 90 * s * s : 0,
-                               200 + 110 * ((s + 5 * t) % 8),
-                               150 + 20 * (s * t % 5),
-                               50 + 10 * s,
-                               0};
-      cell.efficiency = report::Efficiency{0.02 + 0.01 * static_cast<double>(s + t), {}, 0.1, {}};
-      if (t < 2) cell.predicted = report::Predicted{3 + static_cast<double>(s), 9 - static_cast<double>(t)};
-      cell.trace_ns = {100 * ns_per_ray(report.scenes.back(), cell, static_cast<double>(t))};
-      report.measurements.push_back(std::move(cell));
-    }
-  }
-  return report;
-}
-
-double rate(const Measurement& cell, std::uint64_t report::Work::*count) {
-  return static_cast<double>((*cell.work).*count) / 100;
-}
-
-double havrans_law(const report::Scene&, const Measurement& cell, double) {
-  return 8 * rate(cell, &report::Work::object_tests) + 3 * rate(cell, &report::Work::steps) + 20;
-}
 
 std::vector<double> values(const std::vector<std::optional<double>>& constants) {
   std::vector<double> result;
@@ -317,76 +273,6 @@ TEST(FarCells, TellRaysFromScenes) {
   const std::vector<FarCell> far = far_cells(fits[0]);
   EXPECT_THAT(far, SizeIs(10));
   for (const FarCell& cell : far) EXPECT_EQ(cell.assumption(), Assumption::rays);
-}
-
-/// Every model errs by what was planted.
-TEST(ExpectedTests, AreHeldAgainstCountedOnes) {
-  Report report = report_by_law(havrans_law);
-  for (Measurement& cell : report.measurements) {
-    if (rate(cell, &report::Work::volume_tests) == 0) continue;
-    const report::Predicted counted{rate(cell, &report::Work::object_tests),
-                                    rate(cell, &report::Work::volume_tests)};
-    auto wrong = counted, close = counted;
-    wrong.volume_tests_per_ray *= 2, close.object_tests_per_ray *= cell.scene == "scene3" ? 0.9 : 0.96;
-    cell.predicted = wrong;
-    cell.sampled_prediction = report::SampledPrediction{25, wrong, close, counted};
-  }
-  const std::vector<Group> all = groups(report);
-  const std::vector<const CostModel*> models{&model("havran"), &model("equation_3"),
-                                             &model("equation_3_occluded"), &model("equation_3_ordered")};
-  const std::vector<Table> tables = tests_tables(all, models);
-  ASSERT_THAT(tables, SizeIs(4)) << "verdicts, by technique as well, and the cells of two distributions";
-  const auto all_rays = [](std::size_t which) { return 3 * which + 2; };
-  EXPECT_EQ(cell_in_row(tables[0], all_rays(0), "distribution").text, "all");
-  EXPECT_EQ(number_in_row(tables[0], all_rays(0), "cells"), 12);
-  EXPECT_EQ(number_in_row(tables[0], all_rays(0), "right"), 0);
-  EXPECT_NEAR(number_in_row(tables[0], all_rays(0), "max_volumes_percent"), 100, 1e-9);
-  EXPECT_EQ(number_in_row(tables[0], all_rays(1), "right"), 10) << "all but those of scene3";
-  EXPECT_NEAR(number_in_row(tables[0], all_rays(1), "median_objects_percent"), 4, 1e-9);
-  EXPECT_NEAR(number_in_row(tables[0], all_rays(1), "max_objects_percent"), 10, 1e-9);
-  EXPECT_EQ(number_in_row(tables[0], all_rays(2), "right"), 12);
-  EXPECT_FALSE(cell_in_row(tables[0], all_rays(0), "right_elsewhere").number)
-      << "surface areas need no sample";
-  EXPECT_EQ(number_in_row(tables[0], all_rays(1), "right_elsewhere"), 10);
-  EXPECT_EQ(number_in_row(tables[0], all_rays(2), "right_elsewhere"), 12);
-  EXPECT_THAT(row_names(tables[1]), ElementsAre("technique0", "technique1"));
-  EXPECT_EQ(number_in(tables[1], "technique1", "cells"), 6);
-  EXPECT_EQ(number_in(tables[1], "technique1", "equation_3_right"), 0);
-  EXPECT_EQ(number_in(tables[1], "technique1", "equation_3_occluded_right"), 5);
-  EXPECT_THAT(tables[2].rows, SizeIs(6));
-  EXPECT_NEAR(number_in_row(tables[2], 0, "equation_3_volume_error"), 1, 1e-9);
-  EXPECT_NEAR(number_in_row(tables[2], 0, "equation_3_occluded_object_error"), -0.04, 1e-9);
-  EXPECT_TRUE(tests_hold(all, {&model("equation_3_ordered")}, 0.05));
-  EXPECT_FALSE(tests_hold(all, {&model("equation_3_occluded")}, 0.05));
-  EXPECT_TRUE(tests_hold(all, {&model("equation_3_occluded")}, 0.11));
-  EXPECT_FALSE(tests_hold(all, {&model("equation_3_by_rays"), &model("equation_3")}, 0.05));
-  for (Measurement& cell : report.measurements) cell.predicted.reset(), cell.sampled_prediction.reset();
-  EXPECT_THAT(tests_tables(all, models), IsEmpty());
-  EXPECT_FALSE(tests_hold(all, models, 100)) << "what cannot be checked does not hold";
-}
-
-/// Sampled rays take 3 % more than all: 4 % more than the others where they are a quarter, 6 % where they are nearly half.
-TEST(ExpectedTests, AreHeldAgainstRaysOutsideOfTheSample) {
-  for (const std::uint64_t sampled : {25u, 49u}) {
-    Report report = report_by_law(havrans_law);
-    for (Measurement& cell : report.measurements) {
-      const double more = 1.03;
-      const report::Predicted inside{more * rate(cell, &report::Work::object_tests),
-                                     more * rate(cell, &report::Work::volume_tests)};
-      if (inside.volume_tests_per_ray > 0)
-        cell.sampled_prediction = report::SampledPrediction{sampled, inside, inside, inside};
-    }
-    const std::vector<Group> all = groups(report);
-    const auto cells = cells_of_tests(all, {&model("equation_3_ordered")});
-    const double share = static_cast<double>(sampled) / 100;
-    const double error = 1.03 * (1 - share) / (1 - 1.03 * share) - 1;
-    for (const CellOfTests& cell : cells) {
-      EXPECT_THAT(cell.errors_elsewhere[0], Optional(DoubleNear(error, 1e-9)));
-    }
-    const TestsVerdict verdict = verdict_of_tests(cells, 0, "");
-    EXPECT_EQ(verdict.right, 12u);
-    EXPECT_EQ(verdict.right_elsewhere, sampled == 25 ? 12u : 0u);
-  }
 }
 
 TEST(EndPointOverlap, PricesBothParts) {
