@@ -26,8 +26,8 @@
 //            one after the other: of a leaf all for the nearest hit, those up to the first hit for any. Rays that are
 //            not finite, and empty ones, hit nothing and are not looked at.
 // Cost       equation (3), exactly, for uniformly distributed rays without occlusion.
-// Weak       spheres, cones, and polygons but those of four corners, are tested one by one; single precision alone has kernels, and so has the
-//            fast intersector alone. Slivers, where the memory for cutting them is dear.
+// Weak       spheres, cones, and polygons but those of four corners, are tested one by one; single precision alone has
+//            kernels, and so has the fast intersector alone. Slivers, where the memory for cutting them is dear.
 
 #include <fmt/format.h>
 

@@ -67,7 +67,6 @@ struct WideAvx2 {
   // One bit for each lane.
   static unsigned not_above(Floats a, Floats b) { return bits(_mm_cmp_ps(a, b, _CMP_LE_OQ)); }
   static unsigned below(Floats a, Floats b) { return bits(_mm_cmp_ps(a, b, _CMP_LT_OQ)); }
-  static unsigned not_above(Doubles a, Doubles b) { return bits(_mm256_cmp_pd(a, b, _CMP_LE_OQ)); }
   static unsigned below(Doubles a, Doubles b) { return bits(_mm256_cmp_pd(a, b, _CMP_LT_OQ)); }
   /// `a`, and in the lanes whose bits are set `b`.
   static Doubles either(Doubles a, Doubles b, unsigned bits) {

@@ -56,7 +56,6 @@ struct WideAvx512 {
 
   static unsigned not_above(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   static unsigned below(Floats a, Floats b) { return _mm256_cmp_ps_mask(a, b, _CMP_LT_OQ); }
-  static unsigned not_above(Doubles a, Doubles b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
   static unsigned below(Doubles a, Doubles b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
   static Doubles either(Doubles a, Doubles b, unsigned bits) {
     return _mm512_mask_mov_pd(a, static_cast<__mmask8>(bits), b);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include "accel/parts/wide_tree.h"
 
 // Read where code for a kind of processor begins: all that is not included is a template over its instructions.
@@ -22,16 +20,13 @@ class WideBounds {
  public:
   using Floats = typename Isa::Floats;
 
-  /// Of objects with so many corners.
-  template <class Rays, std::size_t kCorners>
-  static WideBounds of(const Floats (&corner)[kCorners][3], const Rays& rays) {
+  /// Of triangles.
+  template <class Rays>
+  static WideBounds of(const Floats (&corner)[3][3], const Rays& rays) {
     Floats lo[3], hi[3], magnitude = Isa::spread(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
-      lo[axis] = hi[axis] = corner[kCorners - 1][axis];
-      for (std::size_t which = kCorners - 1; which-- > 0;) {
-        lo[axis] = Isa::smaller(corner[which][axis], lo[axis]);
-        hi[axis] = Isa::larger(corner[which][axis], hi[axis]);
-      }
+      lo[axis] = Isa::smaller(corner[0][axis], Isa::smaller(corner[1][axis], corner[2][axis]));
+      hi[axis] = Isa::larger(corner[0][axis], Isa::larger(corner[1][axis], corner[2][axis]));
       magnitude = Isa::larger(
           magnitude, Isa::larger(Isa::larger(lo[axis], -lo[axis]), Isa::larger(hi[axis], -hi[axis])));
     }
@@ -51,13 +46,6 @@ class WideBounds {
     }
     enters_ = Isa::larger(Isa::larger(enter[0], enter[1]), enter[2]);
     exits_ = Isa::smaller(Isa::smaller(exit[0], exit[1]), exit[2]);
-  }
-
-  /// One bit for each lane in which some distance that is held to the interval may lie in the ray's own.
-  template <class Rays>
-  unsigned met(const Rays& rays, Floats reach) const {
-    return Isa::not_above(enters_, exits_) & Isa::below(rays.t_min(), exits_) &
-           Isa::not_above(enters_, reach);
   }
 
   /// Hold distances to the intervals, and to the rays' own.
