@@ -75,8 +75,7 @@ Plot plot_of(const Group& group, const Entry& entry, const Kind& kind, const std
   const std::string title = fmt::format("{} per eye ray: {}", kind.words, of);
   return {file_name_of(fmt::format("work-map-{}-{}", kind.name, of)), title,
           fmt::format("Tiles of {} x {} eye rays, the upper left of the picture first: {} tests per ray in "
-                      "the mean, {} in the "
-                      "tile with the most. Maps of the same rays share one scale.",
+                      "the mean, {} in the tile with the most. Maps of the same rays share one scale.",
                       map.tile, map.tile, significant(mean), significant(largest)),
           svg.element(title)};
 }
@@ -103,8 +102,7 @@ PlotSet work_map_plots(const std::vector<Group>& groups) {
   if (set.plots.empty())
     set.left_out =
         "no cell holds a map of its work: rayshoot run --work-map TECHNIQUE takes them; those that rayshoot "
-        "render "
-        "draws are shown by rayshoot report --picture FILE";
+        "render draws are shown by rayshoot report --picture FILE";
   return set;
 }
 
