@@ -3,6 +3,7 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
+#include "accel/parts/reinsertion.h"
 #include "accel/parts/sah_clusters.h"
 #include "accel/parts/sah_partition.h"
 #include "accel/parts/sah_sweep.h"
@@ -179,12 +180,15 @@ class Compacter {
 }  // namespace
 
 Parameter sah_method_parameter() {
-  return choice_parameter("build", "binned", {"binned", "fast", "sweep"}, "how the binary tree is built");
+  return choice_parameter("build", "binned", {"binned", "fast", "sweep", "quality"},
+                          "how the binary tree is built");
 }
 
 SahMethod sah_method(const Arguments& arguments) {
   const std::string& method = arguments.text("build");
-  return method == "fast" ? SahMethod::fast : method == "sweep" ? SahMethod::sweep : SahMethod::binned;
+  if (method == "fast") return SahMethod::fast;
+  if (method == "sweep") return SahMethod::sweep;
+  return method == "quality" ? SahMethod::quality : SahMethod::binned;
 }
 
 template <class Real>
@@ -232,7 +236,8 @@ PairTree<Real> sah_tree(std::span<BoxedObject<Real>> objects, const SahConfig& c
   if (config.method == SahMethod::fast) return tree_of_clusters(objects, config);
   PairTree<Real> tree = sparse_tree(objects, config);
   // Where every object has a leaf of its own no number is left out.
-  return config.max_objects == 1 ? std::move(tree) : Compacter<Real>(tree).compacted();
+  if (config.max_objects > 1) tree = Compacter<Real>(tree).compacted();
+  return config.method == SahMethod::quality ? reinserted(tree, objects) : std::move(tree);
 }
 
 #define RAYSHOOT_SAH_BUILD(REAL)                                               \

@@ -6,9 +6,9 @@
 
 namespace rayshoot {
 
-/// How a hierarchy of boxes is built: between bins of centres; so over clusters of objects,
-/// which become leaves; or by trying every split.
-enum class SahMethod { binned, fast, sweep };
+/// How a hierarchy of boxes is built: between bins of centres; so over clusters of objects, which become leaves;
+/// by trying every split; or between bins, and then subtrees are moved to where they cost less.
+enum class SahMethod { binned, fast, sweep, quality };
 
 /// Parameters of the build; bvh_sah's manual page explains them.
 struct SahConfig {

@@ -40,7 +40,7 @@ TEST(BvhSah, SplitsWhereEquation3ExpectsLeast) {
   for (int i = 0; i < 64; ++i) builder.sphere({(i % 2) * 1000.0, i * 0.1, 0}, 0.01);
   const Scene scene = std::move(builder).finish();
   const Geometry<double> geometry(scene);
-  for (const char* how : {"binned", "fast", "sweep"}) {
+  for (const char* how : {"binned", "fast", "sweep", "quality"}) {
     const auto engine = build("bvh_sah", geometry, {{"build", how}});
     const auto scratch = engine->scratch();
     const Ray<double> through_one_cluster{.origin = {1000, -5, 5}, .direction = {0, 0.1, -1}};

@@ -13,7 +13,7 @@
 namespace rayshoot {
 namespace {
 
-constexpr SahMethod kMethods[] = {SahMethod::binned, SahMethod::fast, SahMethod::sweep};
+constexpr SahMethod kMethods[] = {SahMethod::binned, SahMethod::fast, SahMethod::sweep, SahMethod::quality};
 
 /// Boxes of very different sizes in a cube, denser towards a corner of it.
 template <class Real>
@@ -187,6 +187,8 @@ void expect_at_most(double times, const char* one, const char* other) {
 }
 
 TEST(SahBuild, BinsCostAtMostFivePercentMoreThanAFullSweep) { expect_at_most(1.05, "binned", "sweep"); }
+
+TEST(SahBuild, QualityCostsNoMoreThanBins) { expect_at_most(1, "quality", "binned"); }
 
 TEST(SahBuild, AFastBuildCostsAtMostFifteenPercentMoreThanBins) { expect_at_most(1.15, "fast", "binned"); }
 
