@@ -1,6 +1,7 @@
 #include "accel/parts/early_split.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <cmath>
 #include <numeric>
@@ -92,17 +93,36 @@ class Cutter {
   BoxedObject<Real>* into_;
 };
 
+/// The boxes that a uniformly distributed ray meets on its way through the scene.
+template <class Real>
+double met_by_ray(const Geometry<Real>& geometry, std::span<const BoxedObject<Real>> objects) {
+  const double areas = tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, objects.size(), 4096), 0.0,
+      [&](const auto& part, double sum) {
+        for (std::size_t i = part.begin(); i < part.end(); ++i) {
+          const LaneBox<Real> box = objects[i].lanes();
+          sum += 2 * BoxUnion<Real>{box.lo, box.hi}.half_area();
+        }
+        return sum;
+      },
+      std::plus<>());
+  return areas / geometry.bounds().surface_area();
+}
+
 }  // namespace
 
 template <class Real>
 std::optional<SurfaceMargin<Real>> split_slivers(const Geometry<Real>& geometry, double budget,
                                                  HugeVector<BoxedObject<Real>>& objects) {
-  // Measure how much void each object's box holds; by equation (2) that is how often rays meet it.
+  // By equation (2) a box is met as often as its surface is large: all together may be met too rarely already.
+  if (!(met_by_ray<Real>(geometry, objects) > kMetByRay) || budget == 0) return std::nullopt;
+
+  // Measure how much void each object's box holds.
   std::vector<double> areas(objects.size());
   tbb::parallel_for(std::size_t{0}, objects.size(),
                     [&](std::size_t i) { areas[i] = void_area(geometry, objects[i]); });
   const double met = std::accumulate(areas.begin(), areas.end(), 0.0) / geometry.bounds().surface_area();
-  if (!(met > kMetByRay) || budget == 0) return std::nullopt;
+  if (!(met > kMetByRay)) return std::nullopt;
 
   // Share the budget out.
   const Shares shares(areas, budget * static_cast<double>(objects.size()));
