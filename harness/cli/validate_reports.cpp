@@ -13,6 +13,15 @@ namespace rayshoot::cli {
 
 namespace {
 
+/// A bound that can be kept.
+const CLI::Validator kAboveZero(
+    [](const std::string& text) {
+      double bound = 0;
+      const bool above = CLI::detail::lexical_cast(text, bound) && bound > 0;
+      return above ? std::string() : fmt::format("{} is not a number above 0", text);
+    },
+    "ABOVE 0");
+
 /// The models that were asked for, or all.
 std::vector<const analysis::CostModel*> models_named(const std::vector<std::string>& names) {
   std::vector<std::string> known;
@@ -44,7 +53,7 @@ CLI::Option* add_report_options(CLI::App& command, ReportValidation& validation)
   command
       .add_option("--max-median-error", validation.bounds.max_median_error,
                   "Median relative error that no model may exceed: 0.05 for five per cent")
-      ->check(CLI::PositiveNumber)
+      ->check(kAboveZero)
       ->needs(reports);
   command
       .add_option("--min-spearman", validation.bounds.min_spearman,
@@ -58,7 +67,7 @@ CLI::Option* add_report_options(CLI::App& command, ReportValidation& validation)
   command
       .add_option("--max-test-error", validation.max_test_error,
                   "Relative error of expected tests that no cell of any model may exceed")
-      ->check(CLI::PositiveNumber)
+      ->check(kAboveZero)
       ->needs(tests);
   add_format(command, validation.format)->needs(reports);
   return reports;
