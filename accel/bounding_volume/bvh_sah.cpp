@@ -56,8 +56,7 @@ class BvhSah {
     BvhSah bvh;
     HugeVector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
     bvh.tree_ = sah_tree<Real>(objects, config);
-    bvh.order_.reserve(objects.size());
-    for (const BoxedObject<Real>& object : objects) bvh.order_.push_back(object.object);
+    bvh.order_ = names_of<Real>(objects);
     return bvh;
   }
 

@@ -9,8 +9,9 @@
 //            and get the scalar test, operation by operation in double precision, at once.
 // Parameters instructions  best takes AVX-512 where the processor has it: eight triangles at once, in AVX2 four
 //            mode          single traces ray by ray; batch, where there are kernels, takes many rays at a time: those that
-//                          have little in common sorted by where they start and go; coherent ones as they stand, in
-//                          packets that part where the rays do, but for any hit, where packets part too soon
+//                          have little in common sorted by where they start and go, where a sample of them takes 3.5
+//                          steps or more, for to sort a ray costs as much; coherent ones as they stand, in packets that
+//                          part where the rays do, but for any hit, where packets part too soon
 //            build         how the binary tree is built: binned, sweep, quality or fast, as bvh_sah's; quality makes
 //                          rays up to a twentieth faster in three times the time; fast takes half the time, and its
 //                          leaves are clusters, the smallest of which are joined
@@ -100,8 +101,7 @@ class BvhWide {
     HugeVector<BoxedObject<Real>> objects = boxed_objects(in.geometry);
     bvh.margin_ = split_slivers(in.geometry, config.split_budget, objects);
     bvh.tree_ = widened_tree(sah_tree<Real>(objects, {config.method, config.binary_leaf()}), costs);
-    bvh.order_.reserve(objects.size());
-    for (const BoxedObject<Real>& object : objects) bvh.order_.push_back(object.object);
+    bvh.order_ = names_of<Real>(objects);
     if constexpr (std::same_as<Real, float>)
       if (at_once) bvh.triangles_ = WideTriangles(in.geometry, bvh.order_, bvh.tree_);
     bvh.batch_ = config.batch;
@@ -161,12 +161,12 @@ class BvhWide {
   void kernel_closest(const Geometry<Real>& geometry, std::span<const Ray<Real>> rays,
                       std::span<Hit<Real>> hits, Scratch& scratch) const {
     if constexpr (std::same_as<Real, float>)
-      kernels_->closest({tree_, triangles_, geometry, order_, margin_}, batch(rays, scratch), hits);
+      kernels_->closest({tree_, triangles_, geometry, order_, margin_}, batch(geometry, rays, scratch), hits);
   }
   void kernel_any(const Geometry<Real>& geometry, std::span<const Ray<Real>> rays,
                   std::span<std::uint8_t> blocked, Scratch& scratch) const {
     if constexpr (std::same_as<Real, float>)
-      kernels_->any({tree_, triangles_, geometry, order_, margin_}, batch(rays, scratch), blocked);
+      kernels_->any({tree_, triangles_, geometry, order_, margin_}, batch(geometry, rays, scratch), blocked);
   }
 
   StructureStats structure() const {
@@ -198,6 +198,8 @@ class BvhWide {
   }
 
  private:
+  static constexpr double kStepsWorthSorting = 3.5;
+
   template <class Visit>
   void visit_below(WideChild child, std::uint32_t depth, const Visit& visit) const {
     if (child.is_leaf())
@@ -215,12 +217,26 @@ class BvhWide {
     const Vec3<Real> zero = (ray.origin - ray.origin) + (ray.direction - ray.direction);
     return (zero == Vec3<Real>{}) & (ray.t_min < ray.t_max);
   }
-  /// Rays that have little in common are sorted, where they are all there are.
-  WideBatch batch(std::span<const Ray<float>> rays, Scratch& scratch) const {
+  /// Rays that have little in common are sorted, where they are all there are and search for long.
+  WideBatch batch(const Geometry<float>& geometry, std::span<const Ray<float>> rays, Scratch& scratch) const {
     if (const bool coherent = are_coherent(rays); coherent || !batch_)
       // Margins are for single rays.
       return {.rays = rays, .coherent = coherent, .in_packets = coherent && batch_ && !margin_};
+    if (steps_of_some(geometry, rays) < kStepsWorthSorting) return {.rays = rays};
     return {.rays = rays, .order = scratch.order.sorted(rays, tree_.bounds), .coherent = true};
+  }
+  /// Steps of the mean ray to its nearest hit, of 64 rays or so.
+  double steps_of_some(const Geometry<float>& geometry, std::span<const Ray<float>> rays) const {
+    const auto test = [&](std::uint32_t position, const Ray<float>& ray) {
+      return geometry.hit_distance(order_[position], ray);
+    };
+    Work work;
+    Scratch none;
+    for (std::size_t i = 0; i < rays.size(); i += std::max<std::size_t>(rays.size() / 64, 1), ++work.rays) {
+      ClosestLeaf<float, decltype(test)> leaf(test, {order_.data()}, rays[i]);
+      visit(rays[i], none, Count(work), leaf);
+    }
+    return static_cast<double>(work.steps) / static_cast<double>(work.rays);
   }
   Real margin_of(const Ray<Real>& ray) const { return margin_ ? box_margin(*margin_, ray) : 0; }
   static bool triangles_suit(const Geometry<Real>& geometry) {

@@ -201,6 +201,15 @@ HugeVector<BoxedObject<Real>> boxed_objects(const Geometry<Real>& geometry) {
   return objects;
 }
 
+template <class Real>
+std::vector<std::uint32_t> names_of(std::span<const BoxedObject<Real>> objects) {
+  std::vector<std::uint32_t> names(objects.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, objects.size()), [&](const auto& part) {
+    for (std::size_t i = part.begin(); i < part.end(); ++i) names[i] = objects[i].object;
+  });
+  return names;
+}
+
 namespace {
 
 /// The tree over objects in the order that its leaves name, with gaps between nodes.
@@ -240,8 +249,9 @@ PairTree<Real> sah_tree(std::span<BoxedObject<Real>> objects, const SahConfig& c
   return config.method == SahMethod::quality ? reinserted(tree, objects) : std::move(tree);
 }
 
-#define RAYSHOOT_SAH_BUILD(REAL)                                               \
-  template HugeVector<BoxedObject<REAL>> boxed_objects(const Geometry<REAL>&); \
+#define RAYSHOOT_SAH_BUILD(REAL)                                                    \
+  template HugeVector<BoxedObject<REAL>> boxed_objects(const Geometry<REAL>&);      \
+  template std::vector<std::uint32_t> names_of(std::span<const BoxedObject<REAL>>); \
   template PairTree<REAL> sah_tree(std::span<BoxedObject<REAL>>, const SahConfig&);
 RAYSHOOT_SAH_BUILD(float)
 RAYSHOOT_SAH_BUILD(double)

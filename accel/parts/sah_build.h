@@ -25,6 +25,10 @@ SahMethod sah_method(const Arguments& arguments);
 template <class Real>
 HugeVector<BoxedObject<Real>> boxed_objects(const Geometry<Real>& geometry);
 
+/// What the boxed objects are called, one after the other.
+template <class Real>
+std::vector<std::uint32_t> names_of(std::span<const BoxedObject<Real>> objects);
+
 /// The tree over boxed objects, which are reordered as its leaves name them. It is the same however many threads there are.
 template <class Real>
 PairTree<Real> sah_tree(std::span<BoxedObject<Real>> objects, const SahConfig& config);

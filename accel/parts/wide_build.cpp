@@ -152,6 +152,7 @@ class Widener {
     std::vector<Part> parts;
     emit(root, 0, tree_.nodes, tree_.max_depth, &parts);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      parts[i].nodes.reserve(count(parts[i].subtree) / 4 + 1);
       emit(parts[i].subtree, parts[i].depth, parts[i].nodes, parts[i].max_depth, nullptr);
     });
     for (Part& part : parts) {
