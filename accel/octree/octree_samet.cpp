@@ -95,10 +95,8 @@ class OctreeSamet : public OctreeTechnique<OctreeSamet, Real> {
     return true;
   }
 
-  /// Nodes are stored level by level, the eight children of a node together (octree_build.h).
-  std::size_t siblings(const Node* node) const {
-    return static_cast<std::size_t>(node - cells_.root() - 1) / 8;
-  }
+  /// The eight children of a node stand together (octree_layout.h).
+  std::size_t siblings(const Node* node) const { return static_cast<std::size_t>(node - cells_.root()) / 8; }
   const Node* parent(const Node* node) const { return cells_.root() + parents_[siblings(node)]; }
 
   void link_parents() {

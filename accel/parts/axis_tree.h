@@ -2,6 +2,7 @@
 
 #include "accel/core/technique.h"
 #include "accel/parts/branch.h"
+#include "scenes/core/huge_pages.h"
 
 namespace rayshoot {
 
@@ -47,8 +48,8 @@ class AxisTree {
 
   /// Without a box there is nothing.
   Box<Real> box;
-  std::vector<Node> nodes;
-  std::vector<std::uint32_t> references;
+  HugeVector<Node> nodes;
+  HugeVector<std::uint32_t> references;
 
   bool empty() const { return nodes.empty(); }
   std::span<const std::uint32_t> objects(const Node& leaf) const {
