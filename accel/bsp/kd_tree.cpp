@@ -17,19 +17,13 @@
 //            mailbox            auto: where an object is listed twice
 // Cost       equation (3) with planes: the surface of a child over that of its cell is the chance that a ray that comes
 //            into the cell comes into the child.
-// Memory     beside the tree, a copy of an object for every leaf that lists it: those of a leaf then lie side by side, and a
-//            ray waits for memory once a leaf instead of twice.
 // Weak       objects that are cut by many planes; a build of half a second for every hundred thousand triangles or so.
 //
 // Exactness  Which side of a plane an object is on, and a ray's crossing of it, come from the same stored number, and the
 //            crossing has an earliest and a latest parameter: a hit lies in a leaf that lists its object.
 
-#include <numeric>
-#include <ranges>
-
 #include "accel/core/define_technique.h"
 #include "accel/parts/kd_build.h"
-#include "accel/parts/object_order.h"
 #include "accel/parts/surface_margin.h"
 #include "accel/parts/visit_cells.h"
 
@@ -82,9 +76,9 @@ class KdTree {
     if (config.rules.clipped) technique.margin_ = SurfaceMargin<Real>(in.geometry.bounds());
     technique.tree_ =
         build_kd_tree(in.geometry, config.rules, technique.margin_ ? technique.margin_->of_cells() : Real{0});
-    technique.references_ = technique.tree_.references.size();
-    if (wants_mailbox(config.mailbox, technique.references_, objects)) technique.mailboxes_ = objects;
-    technique.order_ = side_by_side(std::exchange(technique.tree_.references, {}), objects);
+    technique.order_objects(objects);
+    if (wants_mailbox(config.mailbox, technique.tree_.references.size(), objects))
+      technique.mailboxes_ = objects;
     return technique;
   }
 
@@ -93,34 +87,23 @@ class KdTree {
 
   StructureStats structure() const {
     StructureStats stats = tree_.structure();
-    stats.references = references_;
     stats.bytes += order_.size() * sizeof(order_[0]);
     return stats;
   }
 
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    const bool once = mailbox.in_use();
-    if (once) mailbox.begin_ray();
-    visit_leaves(
-        ray, count, [&] { return leaf.reach(); },
-        [&](const auto& cell) {
-          return visit_objects_of_cell(
-              std::views::iota(cell.first(), cell.first() + cell.count()),
-              [this](std::uint32_t position) { return order_[position]; }, once, mailbox, count, leaf);
-        });
+    visit_objects_of_cells(*this, ray, mailbox, count, leaf);
   }
 
   template <class Counter, class Reach, class Visit>
   void visit_cells(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    visit_leaves(ray, count, reach, [&](const auto& leaf) { return visit(tree_.objects(leaf)); });
+    if (const Real margin = margin_ ? margin_->of_ray(ray) : 0; margin != 0) [[unlikely]]
+      return visit_within(margin, ray, count, reach, visit);
+    walk_clipped<false>(tree_, AxisTreeRay<Real>(ray), ray.t_min, count, reach,
+                        [&](const auto& leaf) { return visit(tree_.objects(leaf)); });
   }
 
-  /// List the positions that leaves name by their first and their number alone.
-  void prepare_cells() {
-    tree_.references.resize(order_.size());
-    std::iota(tree_.references.begin(), tree_.references.end(), 0u);
-  }
   const KdTree& cells(Scratch&) const { return *this; }
   bool widens_cells() const { return margin_.has_value(); }
   template <class Visit>
@@ -129,26 +112,30 @@ class KdTree {
   }
 
  private:
-  /// Call visit(leaf) for the leaves on the ray.
-  template <class Counter, class Reach, class Visit>
-  void visit_leaves(const Ray<Real>& ray, Counter count, const Reach& reach, const Visit& visit) const {
-    if (const Real margin = margin_ ? margin_->of_ray(ray) : 0; margin != 0) [[unlikely]]
-      return visit_within(margin, ray, count, reach, visit);
-    walk_clipped<false>(tree_, AxisTreeRay<Real>(ray), ray.t_min, count, reach, visit);
-  }
-
   /// For rays too far away for the margin of clipped surfaces, all planes are as thick as theirs.
   template <class Counter, class Reach, class Visit>
   [[gnu::noinline, gnu::cold]] void visit_within(Real margin, const Ray<Real>& ray, Counter count,
                                                  const Reach& reach, const Visit& visit) const {
-    walk_clipped<true>(tree_, AxisTreeRay<Real>(ray, margin), ray.t_min, count, reach, visit);
+    walk_clipped<true>(tree_, AxisTreeRay<Real>(ray, margin), ray.t_min, count, reach,
+                       [&](const auto& leaf) { return visit(tree_.objects(leaf)); });
   }
 
-  /// Its leaves name positions.
+  /// Lay objects out in the order in which the leaves list them first, so that those of a leaf lie close together.
+  void order_objects(std::uint32_t objects) {
+    std::vector<std::uint32_t> position(objects, kNoObject);
+    const auto place = [&](std::uint32_t object) {
+      if (position[object] != kNoObject) return;
+      position[object] = static_cast<std::uint32_t>(order_.size());
+      order_.push_back(object);
+    };
+    order_.reserve(objects);
+    for (const std::uint32_t object : tree_.references) place(object);
+    for (std::uint32_t object = 0; object < objects; ++object) place(object);
+    for (std::uint32_t& reference : tree_.references) reference = position[reference];
+  }
+
   AxisTree<Real> tree_;
-  std::size_t references_ = 0;
-  /// The objects of one leaf after the other.
-  HugeVector<std::uint32_t> order_;
+  std::vector<std::uint32_t> order_;
   /// Set where objects are clipped.
   std::optional<SurfaceMargin<Real>> margin_;
   std::uint32_t mailboxes_ = 0;

@@ -153,7 +153,7 @@ class GlassnerHybrid {
 
  private:
   PairTree<Real> tree_;
-  HugeVector<std::uint32_t> references_;
+  std::vector<std::uint32_t> references_;
   /// Of the octree.
   int depth_ = 0;
   std::uint32_t mailboxes_ = 0;

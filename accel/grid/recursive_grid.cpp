@@ -6,9 +6,8 @@
 //            comes quickly through open space and finds small cells where the scene is crowded. The tree is shallow
 //            where an octree, with its eight cells a level, is deep.
 // Parameters resolution      heterogeneous: cubic cells
-//            density         cells per object of the outermost grid; 0.3, far fewer than a uniform grid's 5, for crowded
-//                            places get grids of their own, and fewer cells are crossed in open space and stay in the cache:
-//                            on balls, tree and mount 19 to 23 % faster than 3
+//            density         cells per object of the outermost grid; 3, fewer than a uniform grid's 5, for crowded places get
+//                            grids of their own
 //            nested_density  the same for grids within cells; 1
 //            max_objects     more in a cell make a grid; 16, since to enter a nested grid costs a ray as much as some tests
 //            max_depth       levels of grids; 4, as Jevans (1990, §2) says of trees that do
@@ -41,7 +40,7 @@ class RecursiveGrid {
   using Scratch = NestedScratch;
 
   static TechniqueInfo info() {
-    std::vector<Parameter> parameters = nesting_parameters({.density = 0.3});
+    std::vector<Parameter> parameters = nesting_parameters({});
     parameters.push_back(mailbox_parameter());
     return {.id = "recursive_grid",
             .title = "Recursive grid (adaptive 3-D grid)",

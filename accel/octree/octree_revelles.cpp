@@ -14,15 +14,12 @@
 //            mailbox      auto: where an object is listed twice
 // Cost       six products for every interior voxel on the ray, and a comparison for every child; no look-ups from the
 //            root. Steps are the voxels that are entered.
-// Memory     beside the tree, a copy of an object for every leaf that lists it, side by side, as all octrees of explicit nodes.
-//            The three axes are worked out in lanes.
 // Weak       interior voxels are visited again for every ray, so deep trees over small scenes cost more than a grid.
 //
 // Exactness  Every plane has an earliest and a latest parameter. Where those of two dividing planes overlap, the ray may
 //            pass an edge or a vertex: then all children are compared, and those touched are visited too.
 
 #include "accel/core/define_technique.h"
-#include "accel/parts/lattice_lanes.h"
 #include "accel/parts/octree_technique.h"
 
 namespace rayshoot {
@@ -59,112 +56,84 @@ class OctreeRevelles : public OctreeTechnique<OctreeRevelles, Real> {
       return;
     }
 
-    const LatticeLanes<Real> lanes(cells_.lattice(), path);
     Voxel stack[kMaxOctreeDepth];
     int top = 0;
-    stack[0].begin_root(root, lanes);
-    stack[0].divide(cells_, path, lanes, std::max(whole.enter, ray.t_min));
-    while (true) {
+    stack[0].begin(root, cells_, path);
+    stack[0].planes.begin(path, root, stack[0].dividing);
+    stack[0].octant = first_child(stack[0].planes, ray.t_min);
+    while (top >= 0) {
       // Take the child that the ray is in, and find the one after it.
       Voxel& voxel = stack[top];
       const unsigned octant = voxel.octant;
-      const Real enter = voxel.enter;
-      voxel.go_on(ray.t_min);
-      if (enter <= reach()) {
-        count.step();
-        const auto* node = cells_.child(voxel.node, octant ^ path.mirror());
-        if (node->interior()) {
-          // Go down, and do not come back where no child is left.
-          top += voxel.octant < 8;
-          stack[top].begin_child(voxel, octant, node);
-          stack[top].divide(cells_, path, lanes, std::max(enter, ray.t_min));
-          continue;
-        }
-        if (visit(cells_.objects(*node))) return;
+      if (octant >= 8) {
+        --top;
+        continue;
       }
-      // Come back to where a child is left.
-      if (voxel.octant >= 8 && --top < 0) return;
+      voxel.octant = next_child(voxel, octant, ray.t_min);
+      const Interval<Real> inside = voxel.planes.inside(octant);
+      if (!(inside.enter <= reach())) continue;
+      count.step();
+
+      // Visit it if it is a leaf, and go down otherwise.
+      const auto* node = cells_.child(voxel.cell.node, octant ^ path.mirror());
+      if (!node->interior()) {
+        if (visit(cells_.objects(*node))) return;
+        continue;
+      }
+      Voxel& below = stack[++top];
+      below.begin({voxel.cell.child(octant, voxel.dividing), node}, cells_, path);
+      below.planes.begin_child(path, below.dividing, voxel.planes, octant);
+      below.octant = first_child(below.planes, ray.t_min);
     }
   }
 
  private:
-  /// An interior voxel on the ray, and the child to be visited next, 8 when there is none. Halves are numbered as the ray
-  /// comes to them.
+  /// An interior voxel on the ray, and the child to be visited next, 8 when there is none.
   struct Voxel {
-    using Vector = Lanes<Real>;
-
-    const typename OctreeCells<Real>::Node* node;
-    /// Its faces and the planes that divide it, as numbers of planes.
-    Vector begins, divided, ends;
-    /// Earliest parameters at which the ray may come into a half, and latest at which it may leave it.
-    Vector enters[2], leaves[2];
+    Cell cell;
+    /// The layers at which it is divided, and where the ray crosses these planes and its faces.
+    Layers dividing;
+    DividedCell<Real> planes;
     unsigned octant;
     /// Whether the order of the dividing planes is in doubt, so that all children are compared.
     bool in_doubt;
-    /// Earliest parameter in the next child.
-    Real enter;
 
-    void begin_root(const Cell& root, const LatticeLanes<Real>& lanes) {
-      node = root.node;
-      begins = in_lanes<Real>(root.corner), ends = begins + in_lanes<Real>(root.size);
-      enters[0] = lanes.entry(lanes.away(begins)), leaves[1] = lanes.exit(lanes.away(ends));
-    }
-    /// Become a child, whose faces are its parent's faces and dividing planes; the parent may be itself.
-    void begin_child(const Voxel& parent, unsigned child, const typename OctreeCells<Real>::Node* here) {
-      const auto upper = upper_halves<Real>(child);
-      node = here;
-      begins = upper ? parent.divided : parent.begins, ends = upper ? parent.ends : parent.divided;
-      enters[0] = upper ? parent.enters[1] : parent.enters[0];
-      leaves[1] = upper ? parent.leaves[1] : parent.leaves[0];
-    }
-    /// Cross the dividing planes, and find the child that the ray is in at `first`, beyond each plane that it has
-    /// certainly passed (first_node of the paper).
-    void divide(const OctreeCells<Real>& cells, const LatticeRay<Real>& path, const LatticeLanes<Real>& lanes,
-                Real first) {
-      divided = cells.divided_alike() ? (begins + ends) / 2 : in_lanes<Real>(cells.chosen_planes(node, path));
-      const Vector away = lanes.away(divided);
-      enters[1] = lanes.entry(away), leaves[0] = lanes.exit(away);
-      in_doubt = false;
-      octant = axes_of(leaves[0] < first);
-      enter = inside(octant).enter;
-    }
-
-    /// The closed interval of parameters inside a child.
-    Interval<Real> inside(unsigned child) const {
-      const auto upper = upper_halves<Real>(child);
-      return {largest(upper ? enters[1] : enters[0]), smallest(upper ? leaves[1] : leaves[0])};
-    }
-    /// Whether a ray that begins at `t_min` may touch a child, which becomes the next one.
-    bool meets(unsigned child, Real t_min) {
-      const Interval<Real> within = inside(child);
-      octant = child, enter = within.enter;
-      return within.enter <= within.exit && within.exit >= t_min;
-    }
-
-    /// new_node of the paper: the ray leaves a child by the first of the dividing planes before it, and the voxel when
-    /// there is none.
-    void go_on(Real t_min) {
-      if (in_doubt) return try_others(t_min);
-      const Vector never = Vector{} + Box<Real>::infinity();
-      const auto upper = upper_halves<Real>(octant);
-      const Vector leave = upper ? never : leaves[0], pass = upper ? never : enters[1];
-      const unsigned first = axes_of((leave < __builtin_shufflevector(pass, pass, 1, 2, 0, 3)) &
-                                     (leave < __builtin_shufflevector(pass, pass, 2, 0, 1, 3)));
-      if (first != 0) {
-        if (!meets(octant | (first & -first), t_min)) octant = 8;
-      } else if (octant == 7) {
-        octant = 8;
-      } else {
-        in_doubt = true;
-        try_others(t_min);
-      }
-    }
-    /// Go on to the next child, in increasing order, that the ray may touch.
-    [[gnu::noinline, gnu::cold]] void try_others(Real t_min) {
-      while (++octant < 8 && !meets(octant, t_min)) {
-      }
+    void begin(const Cell& here, const OctreeCells<Real>& cells, const LatticeRay<Real>& path) {
+      cell = here, dividing = cells.dividing(here.node, here, path), in_doubt = false;
     }
   };
+
+  /// first_node of the paper: the child that the ray is in first, beyond each plane that it has certainly passed.
+  static unsigned first_child(const DividedCell<Real>& planes, Real t_min) {
+    const Real first = planes.first(t_min);
+    return (planes.exit[0][0] < first ? 1u : 0u) | (planes.exit[0][1] < first ? 2u : 0u) |
+           (planes.exit[0][2] < first ? 4u : 0u);
+  }
+
+  /// new_node of the paper: the ray leaves a child by the first of the dividing planes before it, and the voxel when
+  /// there is none.
+  static unsigned next_child(Voxel& voxel, unsigned octant, Real t_min) {
+    if (voxel.in_doubt) return voxel.planes.next_met(octant, t_min);
+    constexpr Real never = Box<Real>::infinity();
+    const auto& leave = voxel.planes.exit[0];
+    const Real x = octant & 1 ? never : leave[0], y = octant & 2 ? never : leave[1],
+               z = octant & 4 ? never : leave[2];
+    const auto& pass = voxel.planes.enter[1];
+    const Real x_earliest = octant & 1 ? never : pass[0], y_earliest = octant & 2 ? never : pass[1],
+               z_earliest = octant & 4 ? never : pass[2];
+    unsigned next = 8;
+    if (x < y_earliest && x < z_earliest)
+      next = octant | 1;
+    else if (y < x_earliest && y < z_earliest)
+      next = octant | 2;
+    else if (z < x_earliest && z < y_earliest)
+      next = octant | 4;
+    else if (octant != 7) {
+      voxel.in_doubt = true;
+      return voxel.planes.next_met(octant, t_min);
+    }
+    return next < 8 && voxel.planes.met(next, t_min) ? next : 8;
+  }
 };
 
 }  // namespace

@@ -95,8 +95,10 @@ class OctreeSamet : public OctreeTechnique<OctreeSamet, Real> {
     return true;
   }
 
-  /// The eight children of a node stand together (octree_layout.h).
-  std::size_t siblings(const Node* node) const { return static_cast<std::size_t>(node - cells_.root()) / 8; }
+  /// Nodes are stored level by level, the eight children of a node together (octree_build.h).
+  std::size_t siblings(const Node* node) const {
+    return static_cast<std::size_t>(node - cells_.root() - 1) / 8;
+  }
   const Node* parent(const Node* node) const { return cells_.root() + parents_[siblings(node)]; }
 
   void link_parents() {

@@ -2,7 +2,6 @@
 
 #include "accel/core/technique.h"
 #include "accel/parts/branch.h"
-#include "scenes/core/huge_pages.h"
 
 namespace rayshoot {
 
@@ -48,8 +47,8 @@ class AxisTree {
 
   /// Without a box there is nothing.
   Box<Real> box;
-  HugeVector<Node> nodes;
-  HugeVector<std::uint32_t> references;
+  std::vector<Node> nodes;
+  std::vector<std::uint32_t> references;
 
   bool empty() const { return nodes.empty(); }
   std::span<const std::uint32_t> objects(const Node& leaf) const {

@@ -11,12 +11,11 @@
 #include <vector>
 
 #include "accel/parts/for_each_below.h"
-#include "scenes/core/huge_pages.h"
 
 namespace rayshoot {
 
 /// For every cell the objects it refers to, in increasing order, in an array of all cells: 4 bytes a cell and
-/// 4 a reference, of which it holds 2^32 - 1 at the most; the next class holds as many references. Both ask for the cells
+/// 4 a reference. Neither this nor the next class holds more than 2^32 - 1 references. Both ask for the cells
 /// of an object twice, from several threads: `for_each_cell(object, visit)` calls visit(cell) once for each.
 class CellLists {
  public:
@@ -24,86 +23,82 @@ class CellLists {
 
   template <class ForEachCell>
   CellLists(std::uint64_t cells, std::uint32_t objects, const ForEachCell& for_each_cell)
-      : words_(cells + 1, 0) {
+      : first_(cells + 1, 0) {
     // Count the references of every cell; their running sum says where each list ends.
     for_each_below(objects, [&](std::uint32_t object) {
-      for_each_cell(object, [&](std::uint64_t cell) { shared_word(cell).fetch_add(1, kRelaxed); });
+      for_each_cell(object, [&](std::uint64_t cell) { shared_first(cell).fetch_add(1, kRelaxed); });
     });
-    std::inclusive_scan(words_.begin(), words_.end(), words_.begin(), std::plus{},
-                        static_cast<std::uint32_t>(cells + 1));
-    words_.resize(words_.back());
+    std::inclusive_scan(first_.begin(), first_.end(), first_.begin());
+    references_.resize(first_.back());
 
     // Fill every list from its end, after which the array says where each begins.
     for_each_below(objects, [&](std::uint32_t object) {
-      for_each_cell(
-          object, [&](std::uint64_t cell) { words_[shared_word(cell).fetch_sub(1, kRelaxed) - 1] = object; });
+      for_each_cell(object, [&](std::uint64_t cell) {
+        references_[shared_first(cell).fetch_sub(1, kRelaxed) - 1] = object;
+      });
     });
 
     // Sort them, since threads came as they liked.
     for_each_below(cells, [&](std::uint64_t cell) {
-      std::sort(words_.data() + words_[cell], words_.data() + words_[cell + 1]);
+      std::sort(references_.data() + first_[cell], references_.data() + first_[cell + 1]);
     });
   }
 
   std::span<const std::uint32_t> objects(std::uint64_t cell) const {
-    return {words_.data() + words_[cell], words_.data() + words_[cell + 1]};
+    return {references_.data() + first_[cell], references_.data() + first_[cell + 1]};
   }
 
   /// Give the references other numbers: `names[i]` for i. The numbers increase.
   void renumber(std::span<const std::uint32_t> names) {
-    for (std::size_t i = starts(); i < words_.size(); ++i) words_[i] = names[words_[i]];
+    for (std::uint32_t& reference : references_) reference = names[reference];
   }
 
   /// Shorten lists, from the first cell on: `shorten(cell, list)` changes the list in place, or not, and returns how many
   /// of its references remain.
   template <class Shorten>
   void shorten_lists(const Shorten& shorten) {
-    if (words_.empty()) return;
-    std::uint32_t begin = words_[0], kept = begin;
-    for (std::size_t cell = 0; cell < cells(); ++cell) {
-      const std::uint32_t end = words_[cell + 1];
-      const std::span<std::uint32_t> list(words_.data() + begin, words_.data() + end);
+    std::uint32_t begin = 0, kept = 0;
+    for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+      const std::uint32_t end = first_[cell + 1];
+      const std::span<std::uint32_t> list(references_.data() + begin, references_.data() + end);
       const auto length = static_cast<std::uint32_t>(shorten(cell, list));
-      std::copy_n(list.begin(), length, words_.begin() + kept);
-      words_[cell] = kept;
+      std::copy_n(list.begin(), length, references_.begin() + kept);
+      first_[cell] = kept;
       kept += length, begin = end;
     }
-    words_[cells()] = kept;
-    words_.resize(kept);
-    words_.shrink_to_fit();
+    if (!first_.empty()) first_.back() = kept;
+    references_.resize(kept);
+    references_.shrink_to_fit();
   }
 
   /// Call visit(cell, objects) for each cell that refers to something.
   template <class Visit>
   void for_each_list(const Visit& visit) const {
-    for (std::uint64_t cell = 0; cell < cells(); ++cell)
-      if (words_[cell] < words_[cell + 1]) visit(cell, objects(cell));
+    for (std::uint64_t cell = 0; cell + 1 < first_.size(); ++cell)
+      if (first_[cell] < first_[cell + 1]) visit(cell, objects(cell));
   }
 
   /// The references of all cells, one cell after the other.
-  std::span<const std::uint32_t> all() const { return std::span(words_).subspan(starts()); }
-  std::uint64_t references() const { return words_.size() - starts(); }
+  std::span<const std::uint32_t> all() const { return references_; }
+  std::uint64_t references() const { return references_.size(); }
   /// Number of cells that refer to something.
   std::uint64_t occupied() const {
     std::uint64_t count = 0;
-    for (std::size_t cell = 0; cell < cells(); ++cell) count += words_[cell] < words_[cell + 1];
+    for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) count += first_[cell] < first_[cell + 1];
     return count;
   }
-  std::size_t bytes() const { return words_.size() * sizeof(std::uint32_t); }
+  std::size_t bytes() const { return (first_.size() + references_.size()) * sizeof(std::uint32_t); }
   /// What `cells` cells with that many references occupy, also while they are built.
   static double bytes_needed(double cells, double references) { return 4 * (cells + references); }
 
  private:
   static constexpr auto kRelaxed = std::memory_order_relaxed;
-  std::atomic_ref<std::uint32_t> shared_word(std::uint64_t cell) {
-    return std::atomic_ref<std::uint32_t>(words_[cell]);
+  std::atomic_ref<std::uint32_t> shared_first(std::uint64_t cell) {
+    return std::atomic_ref<std::uint32_t>(first_[cell]);
   }
-  /// How many words say where lists begin, and where the last one ends; the first list stands behind them.
-  std::size_t starts() const { return words_.empty() ? 0 : words_[0]; }
-  std::size_t cells() const { return words_.empty() ? 0 : starts() - 1; }
 
-  /// In one array, so that a small grid is found by one wait for memory.
-  HugeVector<std::uint32_t> words_;
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> references_;
 };
 
 /// The same for the cells alone that refer to something, in a hash table: an empty cell costs no memory, a

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "scenes/core/huge_pages.h"
+#include "accel/parts/huge_pages.h"
 #include "accel/parts/sah_split.h"
 #include "accel/parts/surface_margin.h"
 #include "scenes/core/geometry.h"

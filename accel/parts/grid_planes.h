@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "scenes/geometry/box.h"
@@ -36,7 +35,6 @@ class GridPlanes {
 
   GridPlanes(const Box<Real>& bounds, const Resolution& resolution)
       : bounds_(bounds), resolution_(resolution) {
-    planes_.resize(first_plane(3));
     for (int axis = 0; axis < 3; ++axis) place_planes(axis);
   }
 
@@ -44,9 +42,7 @@ class GridPlanes {
   const Resolution& resolution() const { return resolution_; }
   std::uint64_t cells() const { return number(0, 0, resolution_[2]); }
   /// The n + 1 positions along an axis, in increasing order.
-  std::span<const Real> planes(int axis) const {
-    return {planes_.data() + first_plane(axis), static_cast<std::size_t>(resolution_[axis]) + 1};
-  }
+  const std::vector<Real>& planes(int axis) const { return planes_[axis]; }
 
   /// The number of a cell: along x neighbours follow one another, along y rows, along z layers.
   std::uint64_t number(std::int32_t x, std::int32_t y, std::int32_t z) const {
@@ -70,7 +66,7 @@ class GridPlanes {
   CellRange overlapped_by(const Box<Real>& box) const {
     CellRange range;
     for (int axis = 0; axis < 3; ++axis) {
-      const std::span<const Real> planes = this->planes(axis);
+      const std::vector<Real>& planes = planes_[axis];
       std::int32_t first = cell_near(axis, box.lo[axis]), last = cell_near(axis, box.hi[axis]);
       while (first > 0 && planes[first] >= box.lo[axis]) --first;
       while (first + 1 < resolution_[axis] && planes[first + 1] < box.lo[axis]) ++first;
@@ -98,8 +94,8 @@ class GridPlanes {
   Box<Real> box(const CellRange& range) const {
     Box<Real> box;
     for (int axis = 0; axis < 3; ++axis) {
-      box.lo[axis] = planes(axis)[range.first[axis]];
-      box.hi[axis] = planes(axis)[range.last[axis] + 1];
+      box.lo[axis] = planes_[axis][range.first[axis]];
+      box.hi[axis] = planes_[axis][range.last[axis] + 1];
     }
     return box;
   }
@@ -115,29 +111,23 @@ class GridPlanes {
     return block;
   }
 
-  std::size_t bytes() const { return planes_.size() * sizeof(Real); }
-
- private:
-  /// Where the planes of an axis begin among those of all three.
-  std::size_t first_plane(int axis) const {
-    std::size_t first = 0;
-    for (int before = 0; before < axis; ++before) first += static_cast<std::size_t>(resolution_[before]) + 1;
-    return first;
+  std::size_t bytes() const {
+    return (planes_[0].size() + planes_[1].size() + planes_[2].size()) * sizeof(Real);
   }
 
+ private:
   void place_planes(int axis) {
     const double lo = bounds_.lo[axis], hi = bounds_.hi[axis], cells = resolution_[axis];
-    Real* const planes = planes_.data() + first_plane(axis);
+    planes_[axis].resize(static_cast<std::size_t>(resolution_[axis]) + 1);
     for (std::int32_t k = 0; k < resolution_[axis]; ++k)
-      planes[k] = static_cast<Real>(std::min(lo + (hi - lo) * (k / cells), hi));
-    planes[resolution_[axis]] = bounds_.hi[axis];
+      planes_[axis][k] = static_cast<Real>(std::min(lo + (hi - lo) * (k / cells), hi));
+    planes_[axis].back() = bounds_.hi[axis];
     cells_per_length_[axis] = static_cast<Real>(cells / (hi - lo));
   }
 
   Box<Real> bounds_;
   Resolution resolution_{};
-  /// Axis by axis in one array, which for a small grid is a cache line or two.
-  std::vector<Real> planes_;
+  std::vector<Real> planes_[3];
   Vec3<Real> cells_per_length_;
 };
 

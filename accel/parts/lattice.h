@@ -130,7 +130,6 @@ class LatticeRay {
   /// Bit `axis` is set where the axis is mirrored: exclusive-or turns octants as the ray sees them into
   /// octants of the lattice, and back.
   unsigned mirror() const { return mirror_; }
-  const Crossings<Real>& crossings() const { return crossings_; }
 
   /// Planes of the lattice as the ray sees them, or back.
   Layers mirrored(const Layers& planes) const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -11,68 +10,33 @@ namespace rayshoot {
 
 /// Remembers for one thread which objects its current ray has met, so that an object that several cells refer
 /// to is tested once a ray (Arnaldi, Priol & Bouatouch 1987; Arvo & Kirk §5.3): each object carries the
-/// number of the last ray that was tested against it. Those numbers stand in a table by hash, as large as the rays
-/// so far asked for and half empty at least: what a ray has met stays in the nearest cache then.
+/// number of the last ray that was tested against it.
 class Mailbox {
  public:
   /// A mailbox for that many objects; one for none serves where mailboxes are off.
-  explicit Mailbox(std::uint32_t objects = 0) {
-    if (objects > 0) resize(kFirstSlots);
-  }
+  explicit Mailbox(std::uint32_t objects = 0) : last_ray_(objects, 0) {}
 
-  bool in_use() const { return !slots_.empty(); }
+  bool in_use() const { return !last_ray_.empty(); }
 
   /// Forget what the ray before has met.
   void begin_ray() {
-    met_ = 0;
     if (++ray_ != 0) return;
-    std::fill(slots_.begin(), slots_.end(), Letter{});
+    std::fill(last_ray_.begin(), last_ray_.end(), 0);
     ray_ = 1;
   }
 
   /// Whether the current ray meets the object for the first time.
   bool first_visit(std::uint32_t object) {
-    Letter& letter = slots_[slot_of(object)];
-    if (letter.ray == ray_) return false;
-    letter = {ray_, object};
-    if (++met_ > slots_.size() / 2) [[unlikely]]
-      grow();
+    if (last_ray_[object] == ray_) return false;
+    last_ray_[object] = ray_;
     return true;
   }
 
-  bool met(std::uint32_t object) const { return slots_[slot_of(object)].ray == ray_; }
+  bool met(std::uint32_t object) const { return last_ray_[object] == ray_; }
 
  private:
-  static constexpr std::size_t kFirstSlots = 256;
-  struct Letter {
-    std::uint32_t ray = 0, object = 0;
-  };
-
-  void resize(std::size_t slots) {
-    slots_.assign(slots, {});
-    shift_ = 32 - std::countr_zero(slots);
-  }
-
-  /// The slot of an object that the ray has met, or the one in which its search ends (multiplicative hashing, linear
-  /// probing).
-  std::size_t slot_of(std::uint32_t object) const {
-    std::size_t slot = (object * 0x9E3779B9u) >> shift_;
-    while (slots_[slot].ray == ray_ && slots_[slot].object != object) slot = (slot + 1) & (slots_.size() - 1);
-    return slot;
-  }
-
-  [[gnu::noinline, gnu::cold]] void grow() {
-    const std::vector<Letter> before = std::move(slots_);
-    resize(2 * before.size());
-    for (const Letter& letter : before)
-      if (letter.ray == ray_) slots_[slot_of(letter.object)] = letter;
-  }
-
-  std::vector<Letter> slots_;
+  std::vector<std::uint32_t> last_ray_;
   std::uint32_t ray_ = 0;
-  int shift_ = 0;
-  /// Objects that the current ray has met.
-  std::size_t met_ = 0;
 };
 
 enum class MailboxUse { automatic, on, off };

@@ -85,7 +85,7 @@ class NestedGrids {
   }
 
   std::uint32_t objects_;
-  HugeVector<Grid> grids_;
+  std::vector<Grid> grids_;
 };
 
 /// The way of one ray through a grid and the grids listed in its cells. A nested grid is walked where the first cell

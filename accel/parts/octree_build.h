@@ -2,7 +2,6 @@
 
 #include "accel/core/technique.h"
 #include "accel/parts/lattice.h"
-#include "scenes/core/huge_pages.h"
 
 namespace rayshoot {
 
@@ -67,9 +66,9 @@ struct Octree {
   /// Divisions down to the deepest leaf.
   int depth = 0;
   /// Level by level from the root, nodes[0].
-  HugeVector<Node> nodes;
+  std::vector<Node> nodes;
   /// The leaves' objects, in increasing order within a leaf.
-  HugeVector<std::uint32_t> references;
+  std::vector<std::uint32_t> references;
   /// By node, where planes were chosen by cost; empty where cells are divided at their centres.
   std::vector<Place> places;
 

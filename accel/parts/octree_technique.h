@@ -24,20 +24,11 @@ class OctreeTechnique {
   }
 
   Scratch scratch() const { return cells_.mailbox(); }
-  std::span<const std::uint32_t> order() const { return cells_.order(); }
   StructureStats structure() const { return cells_.structure(); }
 
   template <class Counter, class L>
   void visit(const Ray<Real>& ray, Scratch& mailbox, Counter count, L& leaf) const {
-    const bool once = mailbox.in_use();
-    if (once) mailbox.begin_ray();
-    visit_cells(
-        ray, count, [&] { return leaf.reach(); },
-        [&](std::span<const std::uint32_t> objects) {
-          return visit_objects_of_cell(
-              cells_.positions(objects), [this](std::uint32_t position) { return order()[position]; }, once,
-              mailbox, count, leaf);
-        });
+    visit_objects_of_cells(static_cast<const Traversal<Real>&>(*this), ray, mailbox, count, leaf);
   }
 
   template <class Counter, class Reach, class Visit>

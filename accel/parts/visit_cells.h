@@ -1,26 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include "accel/parts/mailbox.h"
 
 namespace rayshoot {
-
-/// Hand on the candidates of a cell, but for those whose objects the ray has met; true when the visit must end.
-///   once             whether the mailbox is in use
-///   name(candidate)  tells which object it is, where several candidates may be one
-template <class Candidates, class Name, class Counter, class L>
-bool visit_objects_of_cell(const Candidates& candidates, const Name& name, bool once, Mailbox& mailbox,
-                           Counter count, L& leaf) {
-  count.cell(candidates.empty());
-  for (const std::uint32_t candidate : candidates)
-    if (once && !mailbox.first_visit(name(candidate)))
-      count.mailbox_hit();
-    else if (leaf(candidate))
-      return true;
-  return false;
-}
 
 /// `visit` of a technique based on spatial indexing: its candidates are the objects of the cells on the ray. The
 /// technique defines
@@ -36,7 +20,13 @@ void visit_objects_of_cells(const Technique& technique, const Ray& ray, Mailbox&
   technique.visit_cells(
       ray, count, [&] { return leaf.reach(); },
       [&](std::span<const std::uint32_t> objects) {
-        return visit_objects_of_cell(objects, std::identity{}, once, mailbox, count, leaf);
+        count.cell(objects.empty());
+        for (const std::uint32_t object : objects)
+          if (once && !mailbox.first_visit(object))
+            count.mailbox_hit();
+          else if (leaf(object))
+            return true;
+        return false;
       });
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/core/huge_pages.h"
+#include "accel/parts/huge_pages.h"
 #include "scenes/core/geometry.h"
 
 namespace rayshoot {

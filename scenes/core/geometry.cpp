@@ -93,8 +93,8 @@ Geometry<Real>::Geometry(const Scene& scene, ConeSides cone_sides, Intersector i
 }
 
 template <class Real>
-template <class Objects>
-void Geometry<Real>::append(ObjectKind kind, Objects& objects, const typename Objects::value_type& object,
+template <class Object>
+void Geometry<Real>::append(ObjectKind kind, std::vector<Object>& objects, const Object& object,
                             std::uint32_t scene_number) {
   references_.push_back(static_cast<std::uint32_t>(kind) << kIndexBits |
                         static_cast<std::uint32_t>(objects.size()));

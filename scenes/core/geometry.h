@@ -6,7 +6,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scenes/core/huge_pages.h"
 #include "scenes/core/placed.h"
 #include "scenes/core/scene.h"
 #include "scenes/geometry/exact.h"
@@ -155,8 +154,8 @@ class Geometry {
   [[gnu::noinline, gnu::cold]] Real other_hit_distance(std::uint32_t object, const Ray<Real>& ray) const {
     return hit_distance(object, ray);
   }
-  template <class Objects>
-  void append(ObjectKind kind, Objects& objects, const typename Objects::value_type& object,
+  template <class Object>
+  void append(ObjectKind kind, std::vector<Object>& objects, const Object& object,
               std::uint32_t scene_number);
   std::string try_append(const Scene& scene, std::uint32_t scene_object, KnownParts& parts);
   std::string try_append_placed(const Placement& placement, std::uint32_t scene_number, KnownParts& parts);
@@ -171,7 +170,7 @@ class Geometry {
   std::vector<std::uint32_t> scene_numbers_, first_numbers_;
   /// By index, and where `mostly_triangles_` is set by object: other objects then have a slot of
   /// not-a-numbers.
-  HugeVector<Triangle<Real>> triangles_;
+  std::vector<Triangle<Real>> triangles_;
   bool mostly_triangles_ = false;
   std::uint32_t others_ = 0;
   std::vector<Sphere<Real>> spheres_;
