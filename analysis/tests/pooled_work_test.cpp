@@ -129,7 +129,8 @@ TEST(PooledWork, KnowsNothingOfTheScenePredicted) {
   const auto predictions = [&] {
     const std::vector<Group> all = groups(report);
     std::map<std::pair<std::string, std::string>, double> predicted;
-    for (const ModelCell& cell : fit_models(all, {&pooled_work()}).at(0).cells)
+    const ModelFit fit = fit_models(all, {&pooled_work()}).at(0);
+    for (const ModelCell& cell : fit.cells)
       if (cell.group->scene_id == "scene5")
         predicted[{cell.group->rays_id, cell.entry->label}] = cell.predicted.value();
     return predicted;
