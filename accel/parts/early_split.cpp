@@ -115,7 +115,7 @@ template <class Real>
 std::optional<SurfaceMargin<Real>> split_slivers(const Geometry<Real>& geometry, double budget,
                                                  HugeVector<BoxedObject<Real>>& objects) {
   // By equation (2) a box is met as often as its surface is large: all together may be met too rarely already.
-  if (!(met_by_ray<Real>(geometry, objects) > kMetByRay) || budget == 0) return std::nullopt;
+  if (budget == 0 || !(met_by_ray<Real>(geometry, objects) > kMetByRay)) return std::nullopt;
 
   // Measure how much void each object's box holds.
   std::vector<double> areas(objects.size());

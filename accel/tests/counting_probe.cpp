@@ -57,13 +57,11 @@ class Tree : public ByHand {
   static Tree build(const BuildInput<float>& in, const Config&) {
     Tree tree;
     tree.bounds_ = in.geometry.bounds();
-    std::vector<BoxedObject<float>> objects;
-    for (std::uint32_t object = 0; object < in.geometry.size(); ++object)
-      objects.push_back({in.geometry.bounds(object), object});
+    HugeVector<BoxedObject<float>> objects = boxed_objects(in.geometry);
     PairTree<float> pairs = sah_tree<float>(objects, {});
     tree.root_ = pairs.root;
     tree.nodes_ = std::move(pairs.nodes);
-    for (const BoxedObject<float>& object : objects) tree.order_.push_back(object.object);
+    tree.order_ = names_of<float>(objects);
     return tree;
   }
 

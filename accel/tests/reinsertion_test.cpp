@@ -62,7 +62,7 @@ TEST(Reinsertion, BringsTogetherWhatBelongsTogether) {
   EXPECT_EQ(objects[0].object % 2, objects[1].object % 2) << "the objects follow";
 }
 
-/// Each object as well on its own: what is left of a chain of nested boxes is worth being a chain again.
+/// Nested boxes cost least as a chain, each beside all smaller ones, which would be 400 deep.
 TEST(Reinsertion, MakesNoTreeDeeperThanSearchesAllow) {
   std::vector<std::pair<float, float>> nested;
   for (int i = 0; i < 400; ++i) nested.emplace_back(0.f, std::pow(1.1f, -static_cast<float>(i)));
